@@ -1,0 +1,61 @@
+"""``aioros1 master``: a master and parameter server until it is told to end."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import signal
+import sys
+
+__all__ = ["master"]
+
+
+def master(*, port: int = 11311, host: str | None = None) -> None:
+    """Run a ROS master until SIGINT, SIGTERM or a request to shut down.
+
+    Parameters
+    ----------
+    port
+        TCP port; 0 takes a free one.
+    host
+        What others are told to reach the master by. With localhost it listens only there,
+        else on every interface. By default ROS_HOSTNAME, ROS_IP, or the address of this
+        machine.
+    """
+    raise SystemExit(asyncio.run(_serve(host, port)))
+
+
+async def _serve(host: str | None, port: int) -> int:
+    # Imported here: the help needs no network.
+    from aioros1.master import Master
+
+    stop = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    with contextlib.suppress(NotImplementedError):  # Windows has KeyboardInterrupt instead
+        for number in (signal.SIGINT, signal.SIGTERM):
+            loop.add_signal_handler(number, stop.set)
+    core = Master(host, port)
+    try:
+        await core.start()
+    except (OSError, ValueError) as error:
+        print(f"aioros1 master: {_text(error)}", file=sys.stderr)
+        return 1
+    try:
+        print(f"ROS_MASTER_URI={core.uri}", flush=True)
+        waiting = {
+            asyncio.create_task(stop.wait(), name="aioros1-cli-signal"),
+            asyncio.create_task(core.wait_closed(), name="aioros1-cli-closed"),
+        }
+        try:
+            await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in waiting:
+                task.cancel()
+            await asyncio.gather(*waiting, return_exceptions=True)
+    finally:
+        await core.close()
+    return 0
+
+
+def _text(error: Exception) -> str:
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)

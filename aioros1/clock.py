@@ -1,0 +1,138 @@
+"""The time of a node: the wall clock, or the simulated time of ``/clock``."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import time
+from collections.abc import AsyncIterator, Awaitable, Callable
+from typing import TYPE_CHECKING, Any
+
+from aioros1.errors import ClosedError
+from aioros1.time import Duration, Time
+from aioros1.waiting import Waiters
+
+if TYPE_CHECKING:
+    from aioros1.node import Node
+
+__all__ = ["Clock", "Timer"]
+
+
+class Clock:
+    """Tells the time and waits for it.
+
+    While time is simulated it is what ``/clock`` said last, zero before that, and
+    waiting goes by it. When it jumps backwards, because a simulation or a bag starts
+    over, whoever waits goes on at once: the time waited for may never come.
+    """
+
+    def __init__(self) -> None:
+        self.is_simulated = False
+        self._simulated = 0
+        self._changed = Waiters()
+
+    def nanoseconds(self) -> int:
+        """Nanoseconds since the epoch, or of the simulation."""
+        return self._simulated if self.is_simulated else time.time_ns()
+
+    def simulate(self) -> None:
+        """From now on the time is what :meth:`set` says."""
+        self.is_simulated = True
+
+    def set(self, now: Time) -> None:
+        """Simulated time has come to ``now``."""
+        self._simulated = now.to_nsec()
+        self._changed.wake()
+
+    async def follow(self, node: Node) -> None:
+        """Take the time from ``/clock``."""
+        subscriber = await node.subscribe("/clock", "rosgraph_msgs/Clock", queue_size=1)
+        async for message in subscriber:
+            self.set(message.clock)
+
+    def fail(self, error: BaseException) -> None:
+        """No more time comes; whoever waits for it gets ``error``."""
+        self._changed.fail(error)
+
+    async def sleep(self, duration: float | Duration) -> None:
+        """Wait for ``duration`` seconds of this clock."""
+        seconds = duration.to_sec() if isinstance(duration, Duration) else duration
+        await self._wait_until(await self._begin() + round(seconds * 1e9))
+
+    async def rate(self, hz: float) -> AsyncIterator[Time]:
+        """Yield the time, ``hz`` times a second, until the node is closed.
+
+        The phase is kept: a body that takes a while shortens the pause after it, and one
+        that takes longer than a period makes the ticks it missed be skipped.
+        """
+        if not hz > 0:
+            raise ValueError(f"a rate must be positive, got {hz!r}")
+        period = round(1e9 / hz)
+        with contextlib.suppress(ClosedError):
+            tick = await self._begin() + period
+            while True:
+                await self._wait_until(tick)
+                yield Time.from_nsec(self.nanoseconds())
+                now = self._steady()
+                if now < tick - period:  # a jump backwards: a new phase
+                    tick = now
+                tick += period * max(1, (now - tick) // period + 1)
+
+    def _steady(self) -> int:
+        """What waiting goes by. Not the wall clock, which can be set."""
+        return self._simulated if self.is_simulated else time.monotonic_ns()
+
+    async def _begin(self) -> int:
+        """The time from which to wait: not before there is any."""
+        while self.is_simulated and not self._simulated:
+            await self._changed.wait()
+        return self._steady()
+
+    async def _wait_until(self, moment: int) -> None:
+        if self.is_simulated:
+            last = self._simulated
+            while last <= self._simulated < moment:
+                last = self._simulated
+                await self._changed.wait()
+            return
+        with contextlib.suppress(TimeoutError):
+            # Nothing changes the wall clock but the end of the node.
+            async with asyncio.timeout(max(0, moment - self._steady()) / 1e9):
+                while not self.is_simulated:
+                    await self._changed.wait()
+
+
+class Timer:
+    """Calls a function again and again; made by :meth:`Node.timer`."""
+
+    def __init__(
+        self,
+        node: Node,
+        period: float | Duration,
+        callback: Callable[[Time], Any] | Callable[[Time], Awaitable[Any]],
+        *,
+        oneshot: bool,
+    ) -> None:
+        seconds = period.to_sec() if isinstance(period, Duration) else period
+        if not seconds > 0:
+            raise ValueError(f"the period of a timer must be positive, got {period!r}")
+        self._node = node
+        self._seconds = seconds
+        self._callback = callback
+        self._oneshot = oneshot
+        self._task = node._spawn(self._run, name=f"{node.name} timer")
+
+    def cancel(self) -> None:
+        """Call the function no more; a call that runs is cancelled."""
+        self._task.cancel()
+
+    async def _run(self) -> None:
+        async for now in self._node.rate(1 / self._seconds):
+            try:
+                result = self._callback(now)
+                if asyncio.iscoroutine(result) or asyncio.isfuture(result):
+                    await result
+            except Exception as error:  # the user's code; what becomes of it is an option
+                self._node._user_error(error, "the callback of a timer")
+            if self._oneshot:
+                return

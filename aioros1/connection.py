@@ -1,0 +1,65 @@
+"""What a node knows of one connection, for its user and for the slave API."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+__all__ = ["ConnectionInfo", "ConnectionStats"]
+
+# Connection ids need only be unique within a node; counting through all nodes of a
+# process costs nothing and makes logs easier to read.
+_ids = itertools.count(1)
+
+
+@dataclass(slots=True)
+class ConnectionStats:
+    """Counters of one connection. They only ever grow."""
+
+    messages: int = 0
+    """Messages, or service calls, that went over it."""
+
+    bytes: int = 0
+    """Bytes of those messages, their length prefixes included."""
+
+    dropped: int = 0
+    """Messages that were dropped because the other side was too slow."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConnectionInfo:
+    """One TCPROS connection of a role, as it is now.
+
+    ``stats`` goes on counting; everything else is fixed when the connection is made.
+    """
+
+    id: int = field(default_factory=_ids.__next__)
+    """Unique within the node; the id that ``getBusInfo`` and ``getBusStats`` show."""
+
+    name: str
+    """The topic or service."""
+
+    direction: Literal["i", "o", "b"]
+    """Whether messages come in, go out, or both (services)."""
+
+    peer: str
+    """The caller id of the other side; of a publisher's side, the URI of its node."""
+
+    local: tuple[str, int]
+    remote: tuple[str, int]
+    fileno: int
+    header: Mapping[str, str]
+    """The connection header that the other side sent."""
+
+    transport: str = "TCPROS"
+    stats: ConnectionStats = field(default_factory=ConnectionStats)
+
+    @property
+    def description(self) -> str:
+        """The text that ``rosnode info`` takes the port numbers from."""
+        return (
+            f"{self.transport} connection on port {self.local[1]} to "
+            f"[{self.remote[0]}:{self.remote[1]} on socket {self.fileno}]"
+        )

@@ -1,0 +1,176 @@
+"""Every exception this library raises on its own account.
+
+::
+
+    RosError
+    ├── InvalidNameError (ValueError)
+    ├── MessageError
+    │   ├── MessageNotFoundError (LookupError)
+    │   ├── MessageSpecError
+    │   ├── SerializationError
+    │   ├── DeserializationError
+    │   └── Md5MismatchError
+    ├── MasterError
+    │   └── MasterUnreachable (ConnectionError)
+    ├── PeerError
+    │   └── PeerUnreachable (ConnectionError)
+    ├── HandshakeError
+    ├── ServiceError
+    │   ├── ServiceNotFound
+    │   └── ServiceUnavailable (ConnectionError)
+    └── ClosedError
+
+Waiting too long is the builtin :class:`TimeoutError`; reading an empty queue is
+:class:`asyncio.QueueEmpty`, writing a full one :class:`asyncio.QueueFull`.
+"""
+
+from __future__ import annotations
+
+from os import PathLike
+
+__all__ = [
+    "ClosedError",
+    "DeserializationError",
+    "HandshakeError",
+    "InvalidNameError",
+    "MasterError",
+    "MasterUnreachable",
+    "Md5MismatchError",
+    "MessageError",
+    "MessageNotFoundError",
+    "MessageSpecError",
+    "PeerError",
+    "PeerUnreachable",
+    "RosError",
+    "SerializationError",
+    "ServiceError",
+    "ServiceNotFound",
+    "ServiceUnavailable",
+]
+
+
+class RosError(Exception):
+    """The base of all errors of this library."""
+
+
+class InvalidNameError(RosError, ValueError):
+    """A graph resource name or a ``pkg/Type`` that ROS does not allow."""
+
+
+class MessageError(RosError):
+    """Something is wrong with a message, a service or their definition."""
+
+
+class MessageNotFoundError(MessageError, LookupError):
+    """No definition of that type in any of the places searched."""
+
+
+class MessageSpecError(MessageError):
+    """A definition cannot be read.
+
+    ``path`` is the file (or the type name, for text that is in no file), ``line``
+    the number of the offending line, counted from 1 (0 when no single line is).
+    """
+
+    def __init__(self, text: str, *, path: str | PathLike[str] = "", line: int = 0) -> None:
+        self.text = text
+        self.path = str(path)
+        self.line = line
+        place = f"{self.path}:{line}" if line else self.path
+        super().__init__(f"{place}: {text}" if place else text)
+
+
+class SerializationError(MessageError):
+    """A value does not fit its field; the text begins with the field's path."""
+
+
+class DeserializationError(MessageError):
+    """The bytes are not a message of this type."""
+
+
+class Md5MismatchError(MessageError):
+    """Two sides, or two roles of one node, mean different definitions by one name."""
+
+
+class MasterError(RosError):
+    """The master refused a request.
+
+    ``code`` is 0 or -1 from the reply, or the code of an XML-RPC fault;
+    ``status`` is the master's own text.
+    """
+
+    def __init__(self, code: int, status: str) -> None:
+        super().__init__(code, status)
+        self.code = code
+        self.status = status
+
+    def __str__(self) -> str:
+        return f"{self.status} (code {self.code})"
+
+
+class MasterUnreachable(MasterError, ConnectionError):
+    """Nobody answers as a master at the master's URI."""
+
+    def __init__(self, status: str) -> None:
+        super().__init__(-1, status)
+
+    def __str__(self) -> str:
+        return self.status
+
+
+class PeerError(RosError):
+    """Another node refused a request of the slave API; as :class:`MasterError`."""
+
+    def __init__(self, code: int, status: str) -> None:
+        super().__init__(code, status)
+        self.code = code
+        self.status = status
+
+    def __str__(self) -> str:
+        return f"{self.status} (code {self.code})"
+
+
+class PeerUnreachable(PeerError, ConnectionError):
+    """Nobody answers at a node's URI."""
+
+    def __init__(self, status: str) -> None:
+        super().__init__(-1, status)
+
+    def __str__(self) -> str:
+        return self.status
+
+
+class HandshakeError(RosError):
+    """A TCPROS connection could not be agreed on.
+
+    ``peer`` names the other side, ``text`` is its ``error=`` text, or what we found
+    wrong with what it sent.
+    """
+
+    def __init__(self, peer: str, text: str) -> None:
+        super().__init__(peer, text)
+        self.peer = peer
+        self.text = text
+
+    def __str__(self) -> str:
+        return f"{self.peer}: {self.text}"
+
+
+class ServiceError(RosError):
+    """A service call failed; ``text`` is what the server said."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.text = text
+
+
+class ServiceNotFound(ServiceError):
+    """The master knows no provider of that service."""
+
+
+class ServiceUnavailable(ServiceError, ConnectionError):
+    """The provider cannot be reached, or was lost before it answered."""
+
+
+class ClosedError(RosError):
+    """The node or the role was closed before, or while, the operation ran."""

@@ -1,0 +1,155 @@
+"""What happens to a node, as values: the items of ``async for event in node.events()``."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from typing import Any, Generic, Self, TypeVar
+from weakref import WeakSet
+
+from aioros1.connection import ConnectionInfo
+from aioros1.waiting import Waiters
+
+__all__ = [
+    "Broadcast",
+    "Event",
+    "EventStream",
+    "MasterLost",
+    "MasterRestarted",
+    "ParamUpdate",
+    "PeerConnected",
+    "PeerDisconnected",
+    "RoleRegistered",
+    "RoleUnregistered",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """The base of all events of a node."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoleRegistered(Event):
+    """The master has accepted a role, for the first time or again."""
+
+    kind: str
+    """``publisher``, ``subscriber``, ``service`` or ``parameter``."""
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class RoleUnregistered(Event):
+    """A role was taken back from the master, or the master could not be told."""
+
+    kind: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class PeerConnected(Event):
+    """A TCPROS connection carries messages now."""
+
+    kind: str
+    """The role on our side: ``publisher``, ``subscriber`` or ``service``."""
+    name: str
+    connection: ConnectionInfo
+
+
+@dataclass(frozen=True, slots=True)
+class PeerDisconnected(Event):
+    """A TCPROS connection ended."""
+
+    kind: str
+    name: str
+    connection: ConnectionInfo
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ParamUpdate(Event):
+    """A followed parameter, or a part of it, was set or deleted.
+
+    ``key`` is resolved and has no trailing slash. ``value`` is ``{}`` for a deleted
+    parameter: that is all the protocol says.
+    """
+
+    key: str
+    value: Any
+
+
+@dataclass(frozen=True, slots=True)
+class MasterLost(Event):
+    """The master has not answered a heartbeat. Topics that flow go on flowing."""
+
+    uri: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class MasterRestarted(Event):
+    """The master is back, or was replaced, and has all registrations again."""
+
+    uri: str
+    run_id: str
+
+
+T = TypeVar("T")
+
+
+class Broadcast(Generic[T]):
+    """Gives every item to all who iterate at that moment.
+
+    Each has a queue of its own, of ``size`` items; the oldest go first. All iterations
+    end when it is closed, with the items that came before.
+    """
+
+    def __init__(self, size: int = 1000) -> None:
+        self._size = size
+        # Weak, so that a loop that was left needs no farewell.
+        self._streams: WeakSet[EventStream[T]] = WeakSet()
+        self._closed = False
+
+    def publish(self, item: T) -> None:
+        for stream in self._streams:
+            stream._put(item)
+
+    def close(self) -> None:
+        self._closed = True
+        for stream in self._streams:
+            stream._close()
+
+    def subscribe(self) -> EventStream[T]:
+        """An iterator over what is published from now on."""
+        stream: EventStream[T] = EventStream(self._size)
+        self._streams.add(stream)
+        if self._closed:
+            stream._close()
+        return stream
+
+
+class EventStream(Generic[T]):
+    """An asynchronous iterator over the items of a :class:`Broadcast`."""
+
+    def __init__(self, size: int) -> None:
+        self._queue: deque[T] = deque(maxlen=size)
+        self._waiters = Waiters()
+        self._closed = False
+
+    def __aiter__(self) -> Self:
+        return self
+
+    async def __anext__(self) -> T:
+        while not self._queue:
+            if self._closed:
+                raise StopAsyncIteration
+            await self._waiters.wait()
+        return self._queue.popleft()
+
+    def _put(self, item: T) -> None:
+        self._queue.append(item)
+        self._waiters.wake()
+
+    def _close(self) -> None:
+        self._closed = True
+        self._waiters.wake()

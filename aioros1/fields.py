@@ -1,0 +1,27 @@
+"""The two ways to give a message: as one, or as its fields."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from aioros1.idl import Message, convert
+
+__all__ = ["message_from"]
+
+
+def message_from(cls: type[Message], message: Any, fields: Mapping[str, Any]) -> Any:
+    """The message that ``publish(message)`` or ``publish(**fields)`` means.
+
+    The result is a ``cls`` or, for a message of another class with the same
+    definition, that message itself. Raises :class:`TypeError` for both at once and for
+    unknown fields, :class:`~aioros1.SerializationError` for a message of another type.
+    """
+    if message is None:
+        return cls(**fields)
+    if fields:
+        raise TypeError(
+            f"{cls._type}: expected a message or fields, got both: {type(message).__name__} "
+            f"and {', '.join(fields)}"
+        )
+    return convert(cls, message)

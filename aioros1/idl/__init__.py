@@ -1,0 +1,39 @@
+"""Message definitions: text to spec to MD5 sum to class with a compiled codec.
+
+Pure: nothing here does any networking or needs an event loop.
+"""
+
+from __future__ import annotations
+
+from .convert import convert, from_dict, to_dict
+from .digest import full_text, md5_text, md5sum
+from .message import Message
+from .parser import parse_action, parse_message, parse_service
+from .service import Action, Service
+from .spec import ActionSpec, Constant, Field, MessageSpec, ServiceSpec
+from .store import MessageStore, default_store, load_action, load_msg, load_srv
+
+__all__ = [
+    "Action",
+    "ActionSpec",
+    "Constant",
+    "Field",
+    "Message",
+    "MessageSpec",
+    "MessageStore",
+    "Service",
+    "ServiceSpec",
+    "convert",
+    "default_store",
+    "from_dict",
+    "full_text",
+    "load_action",
+    "load_msg",
+    "load_srv",
+    "md5_text",
+    "md5sum",
+    "parse_action",
+    "parse_message",
+    "parse_service",
+    "to_dict",
+]

@@ -1,0 +1,155 @@
+"""Which value does not fit its field: the slow walk after an encoder has failed.
+
+It makes a clean copy as it goes. An encoder may fail for a value that is fine but of an
+unusual kind; the copy then holds a usual one, and is encoded in its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from keyword import iskeyword
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from ..errors import SerializationError
+from . import values
+from .builtin_types import BUILTINS, Builtin
+from .spec import Field
+
+if TYPE_CHECKING:
+    from .message import Message
+
+__all__ = ["describe", "normalise"]
+
+_CONVERT: dict[str, Callable[[Any], Any]] = {
+    "string": values.as_text_escaped,
+    "time": values.as_time,
+    "duration": values.as_duration,
+    "bool": values.as_bool,
+}
+
+
+def describe(value: Any) -> str:
+    """A value as it appears in an error: short, whatever it is."""
+    kind = type(value)
+    code = getattr(value, "typecode", None) or getattr(value, "dtype", None)
+    if code is not None and hasattr(value, "__len__"):
+        return f"{kind.__name__} of {str(code)!r}"
+    if isinstance(value, memoryview):
+        return f"memoryview of {value.format!r}"
+    message_type = getattr(kind, "_type", None)
+    if isinstance(message_type, str):
+        return f"a {message_type}"
+    try:
+        text = repr(value[:80] if isinstance(value, (str, bytes, list, tuple)) else value)
+    except Exception:
+        # Of integers, too, not all can be printed.
+        return f"a value of type {kind.__name__}"
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
+def normalise(cls: type[Message], message: Any) -> Message:
+    """A copy of the message with a usual value in each field.
+
+    Raises :class:`SerializationError` with the path of the first field whose value is
+    missing or does not fit.
+    """
+    return _message(cls, message, "")
+
+
+def _wrong(path: str, expected: str, value: Any, why: str = "") -> NoReturn:
+    reason = f" ({why})" if why else ""
+    raise SerializationError(f"{path}: expected {expected}, got {describe(value)}{reason}")
+
+
+def _message(cls: type[Message], message: Any, path: str) -> Message:
+    result: Message = object.__new__(cls)
+    for field in cls._fields:
+        place = f"{path}.{field.name}" if path else field.name
+        try:
+            value = getattr(message, field.name)
+        except AttributeError:
+            # genpy appends an underscore to what Python would not take for a name.
+            alias = f"{field.name}_"
+            if not iskeyword(field.name) or not hasattr(message, alias):
+                if not path and isinstance(message, cls):
+                    raise SerializationError(f"{place}: has no value") from None
+                _wrong(path or cls._type, cls._type, message, f"has no {field.name!r}")
+            value = getattr(message, alias)
+        setattr(result, field.name, _field(cls, field, value, place))
+    if not cls._fields and not hasattr(type(message), "_md5sum"):
+        _wrong(path or cls._type, cls._type, message)
+    return result
+
+
+def _field(cls: type[Message], field: Field, value: Any, path: str) -> Any:
+    builtin = BUILTINS.get(field.base_type)
+    if not field.is_array:
+        if builtin is not None:
+            return _scalar(builtin, value, path)
+        return _message(cls._nested[field.base_type], value, path)
+    if builtin is not None and builtin.kind in ("int", "float"):
+        result = _numbers(builtin, field, value, path)
+    else:
+        try:
+            items = values.as_list(value)
+        except TypeError:
+            _wrong(path, field.type, value)
+        if builtin is not None:
+            result = [_scalar(builtin, v, f"{path}[{i}]") for i, v in enumerate(items)]
+        else:
+            nested = cls._nested[field.base_type]
+            result = [_message(nested, v, f"{path}[{i}]") for i, v in enumerate(items)]
+    if field.array_len is not None and len(result) != field.array_len:
+        _wrong(path, f"{field.array_len} elements", value, f"{len(result)} elements")
+    return result
+
+
+def _numbers(builtin: Builtin, field: Field, value: Any, path: str) -> Any:
+    convert: Any = values.as_octets if builtin.octets else values.as_numbers(builtin.code)
+    try:
+        result = convert(value)
+    except Exception as exc:
+        # An element, perhaps; a buffer is right or wrong as a whole.
+        if not isinstance(value, (list, tuple)):
+            _wrong(path, field.type, value, str(exc))
+        for index, item in enumerate(value):
+            _scalar(builtin, item, f"{path}[{index}]")
+        _wrong(path, field.type, value, str(exc))
+    if builtin.octets:
+        return bytes(result)
+    # Wire-ready by now, and little-endian; the encoder swaps native arrays only.
+    return values.load_array(builtin.code, memoryview(result).tobytes())
+
+
+def _scalar(builtin: Builtin, value: Any, path: str) -> Any:
+    if builtin.kind == "int":
+        try:
+            number = value.__index__()
+        except (AttributeError, TypeError):
+            _wrong(path, builtin.name, value)
+        if not builtin.low <= number <= builtin.high:
+            _wrong(path, f"{builtin.name} ({builtin.low} to {builtin.high})", value)
+        return number
+    if builtin.kind == "float":
+        if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
+            if not hasattr(value, "__index__"):
+                _wrong(path, builtin.name, value)
+            value = value.__index__()
+        try:
+            number = float(value)
+            values.as_numbers(builtin.code)([number])
+        except OverflowError:
+            _wrong(path, builtin.name, value, "out of range")
+        except Exception:
+            _wrong(path, builtin.name, value)
+        return number
+    try:
+        result = _CONVERT[builtin.kind](value)
+    except Exception as exc:
+        why = str(exc) if isinstance(exc, UnicodeError) else ""
+        _wrong(path, builtin.name, value, why)
+    if builtin.kind in ("time", "duration"):
+        low, high = (0, 0xFFFFFFFF) if builtin.kind == "time" else (-(1 << 31), (1 << 31) - 1)
+        if not (low <= result._secs <= high and low <= result._nsecs <= high):
+            _wrong(path, builtin.name, value, "out of the range of the wire")
+    return result

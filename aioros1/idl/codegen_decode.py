@@ -1,0 +1,402 @@
+"""The source generator for decoders; :mod:`.codegen` describes the common ground.
+
+::
+
+    def decode(data, pos, end):
+        try:
+            m1 = new(C2)
+            m1.header = m3 = new(C4)
+            m3.stamp = t5 = new(Time)
+            m3.seq, t5._secs, t5._nsecs, n6 = u7(data, pos)
+            i8 = pos + 16
+            j9 = i8 + n6
+            m3.frame_id = data[i8:j9].decode()
+            if j9 > end: raise ValueError
+            return m1
+        except UnicodeDecodeError: ...
+
+One comparison at the end bounds everything: reading on past ``end`` meets only memory
+that is there (slices stop at its end, struct raises), and makes nothing larger than it.
+Only what is made in proportion to a *count* is checked before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from keyword import iskeyword
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from .builtin_types import BUILTINS
+from .codegen import Source
+from .spec import Field
+from .values import LITTLE
+
+if TYPE_CHECKING:
+    from .message import Message
+
+__all__ = ["MAX_EMPTY", "Mode", "decoder_source", "make_decoder"]
+
+MAX_EMPTY = 65536
+"""Messages without any octets that one message may hold in its arrays. Their number is
+not bounded by the size of the frame; nothing in use has any."""
+
+Mode: TypeAlias = Literal["bytes", "escape", "view", "views"]
+"""What ``data`` is and what payloads become: ``bytes`` for a bytes object; ``escape`` the
+same for text that is not UTF-8; ``view`` for a memoryview, copied; ``views`` not copied."""
+
+
+class _Decoder:
+    """Walks a class and writes the body of its decoder.
+
+    The next octet to read is at ``base`` (a local variable) plus the size of the run;
+    ``codes`` and ``targets`` are the run at hand, ``after`` what waits for its values.
+    """
+
+    def __init__(self, out: Source, mode: Mode, base: str, row: str | None = None) -> None:
+        self.out = out
+        self.mode = mode
+        self.base = base
+        self.row = row  # an unpacked row to take the run from, in place of `data`
+        self.codes: list[str] = []
+        self.targets: list[str] = []
+        self.after: list[str] = []
+
+    # -- runs -------------------------------------------------------------------------
+
+    def take(self, code: str, *targets: str) -> None:
+        self.codes.append(code)
+        self.targets += targets
+
+    def flush(self) -> None:
+        """Read the run and move ``base`` behind it."""
+        if not self.codes:
+            return
+        key, packer = self.out.structure(self.codes)
+        if self.targets:
+            targets = ", ".join(self.targets) + ("," if len(self.targets) == 1 else "")
+            if self.row is not None:
+                self.out.line(f"{targets} = {self.row}")
+            else:
+                unpack = self.out.bind("u", packer.unpack_from, ("unpack", key))
+                self.out.line(f"{targets} = {unpack}(data, {self.base})")
+        for line in self.after:
+            self.out.line(line)
+        if packer.size and self.row is None:
+            self.base = self.local("i", f"{self.base} + {packer.size}")
+        self.codes, self.targets, self.after = [], [], []
+
+    def local(self, prefix: str, value: str) -> str:
+        name = self.out.fresh(prefix)
+        self.out.line(f"{name} = {value}")
+        return name
+
+    def count(self) -> str:
+        """Read a length; it ends the run."""
+        name = self.out.fresh("n")
+        self.take("I", name)
+        self.flush()
+        return name
+
+    # -- where values go --------------------------------------------------------------
+
+    def store(self, owner: str, field: Field, value: str) -> None:
+        if iskeyword(field.name):
+            self.out.line(f"setattr({owner}, {field.name!r}, {value})")
+        else:
+            self.out.line(f"{owner}.{field.name} = {value}")
+
+    def target(self, owner: str, field: Field) -> str:
+        """What an unpacked value is assigned to: the attribute itself where possible."""
+        if not iskeyword(field.name):
+            return f"{owner}.{field.name}"
+        name = self.out.fresh("x")
+        self.after.append(f"setattr({owner}, {field.name!r}, {name})")
+        return name
+
+    def create(self, owner: str, field: Field, prefix: str, class_: str) -> str:
+        """Make an object and put it in its field, before what it holds is known."""
+        name = self.local(prefix, f"new({class_})")
+        self.store(owner, field, name)
+        return name
+
+    # -- fields -----------------------------------------------------------------------
+
+    def message(self, cls: type[Message], owner: str) -> None:
+        for field in cls._fields:
+            if field.is_array:
+                self.array(cls, field, owner)
+            elif field.is_builtin:
+                self.scalar(field, owner)
+            else:
+                nested = cls._nested[field.base_type]
+                name = self.create(owner, field, "m", self.out.bind("C", nested, nested))
+                self.message(nested, name)
+
+    def scalar(self, field: Field, owner: str) -> None:
+        builtin = BUILTINS[field.base_type]
+        if builtin.kind in ("int", "float", "bool"):
+            self.take(builtin.code, self.target(owner, field))
+        elif builtin.kind == "string":
+            start, stop = self.extent(1)
+            self.store(owner, field, self.text(start, stop))
+        else:
+            name = self.create(owner, field, "t", builtin.kind.capitalize())
+            self.take(builtin.code, f"{name}._secs", f"{name}._nsecs")
+
+    def extent(self, item_size: int) -> tuple[str, str]:
+        """Read a count and step over what it counts; gives its start and stop."""
+        count = self.count()
+        start = self.base
+        times = count if item_size == 1 else f"{item_size} * {count}"
+        self.base = self.local("j", f"{start} + {times}")
+        return start, self.base
+
+    def text(self, start: str, stop: str) -> str:
+        if self.mode == "bytes":
+            return f"data[{start}:{stop}].decode()"
+        if self.mode == "escape":
+            return f"data[{start}:{stop}].decode('utf-8', 'surrogateescape')"
+        return f"str(data[{start}:{stop}], 'utf-8', 'surrogateescape')"
+
+    def octets(self, start: str, stop: str) -> str:
+        part = f"data[{start}:{stop}]"
+        return f"{part}.tobytes()" if self.mode == "view" else part
+
+    def numbers(self, code: str, octets: str) -> str:
+        if not LITTLE:
+            return f"{self.out.use('load_array')}({code!r}, {octets})"
+        if self.mode == "views":
+            return f"{octets}.cast({code!r})"
+        return f"array({code!r}, {octets})"
+
+    def array(self, cls: type[Message], field: Field, owner: str) -> None:
+        builtin = BUILTINS.get(field.base_type)
+        if field.array_len == 0 and (builtin is None or builtin.kind == "string"):
+            # Of a fixed size even if its elements are not, so that it can be in a row.
+            self.store(owner, field, "[]")
+        elif builtin is None:
+            self.messages(cls._nested[field.base_type], field, owner)
+        elif builtin.kind == "string":
+            self.strings(field, owner)
+        elif field.array_len is not None:
+            self.fixed(field, owner, field.array_len)
+        elif builtin.kind in ("int", "float"):
+            start, stop = self.extent(builtin.size)
+            if builtin.octets:
+                self.store(owner, field, self.octets(start, stop))
+            elif self.mode == "view" and LITTLE:
+                # One copy: array(code, memoryview) would take the octets for numbers.
+                name = self.local("a", f"array({builtin.code!r})")
+                self.out.line(f"{name}.frombytes(data[{start}:{stop}])")
+                self.store(owner, field, name)
+            else:
+                self.store(owner, field, self.numbers(builtin.code, f"data[{start}:{stop}]"))
+        else:
+            start, stop = self.extent(builtin.size)
+            self.out.line(f"if {stop} > end: raise ValueError")
+            self.store(owner, field, self.listed(builtin.kind, f"data[{start}:{stop}]"))
+
+    def listed(self, kind: str, octets: str) -> str:
+        """A list of booleans or times."""
+        if kind == "bool":
+            return f"list(map(bool, {octets}))"
+        raw = self.out.fresh("raw")
+        codes = ["II"] if kind == "time" else ["ii"]
+        class_ = "Time" if kind == "time" else "Duration"
+        key, packer = self.out.structure(codes)
+        rows = self.out.bind("r", packer.iter_unpack, ("rows", key))
+        self.out.globals["raw_" + kind] = self.out.globals[class_]._raw
+        return f"[raw_{kind}(*{raw}) for {raw} in {rows}({octets})]"
+
+    def fixed(self, field: Field, owner: str, length: int) -> None:
+        """A fixed array of a built-in type other than string: part of the run."""
+        builtin = BUILTINS[field.base_type]
+        size = length * builtin.size
+        if self.mode == "views" and builtin.kind in ("int", "float") and self.row is None:
+            # No value to unpack, but a place to point at.
+            _, before = self.out.structure(self.codes)
+            start, stop = before.size, before.size + size
+            self.take(f"{size}x")
+            part = f"data[{self.base} + {start}:{self.base} + {stop}]"
+            value = part if builtin.octets else self.numbers(builtin.code, part)
+            self.assign_after(owner, field, value)
+        elif builtin.octets:
+            self.take(f"{size}s", self.target(owner, field))
+        else:
+            name = self.out.fresh("x")
+            self.take(f"{size}s", name)
+            if builtin.kind in ("int", "float"):
+                value = (
+                    f"array({builtin.code!r}, {name})"
+                    if LITTLE
+                    else f"{self.out.use('load_array')}({builtin.code!r}, {name})"
+                )
+            else:
+                value = self.listed(builtin.kind, name)
+            self.assign_after(owner, field, value)
+
+    def assign_after(self, owner: str, field: Field, value: str) -> None:
+        if iskeyword(field.name):
+            self.after.append(f"setattr({owner}, {field.name!r}, {value})")
+        else:
+            self.after.append(f"{owner}.{field.name} = {value}")
+
+    def length(self, field: Field) -> str:
+        """The number of elements of a list, read or known; the run is over then."""
+        if field.array_len is None:
+            return self.count()
+        self.flush()
+        return str(field.array_len)
+
+    def strings(self, field: Field, owner: str) -> None:
+        count = self.length(field)
+        self.check_count(count, 4)
+        items = self.local("l", "[]")
+        size = self.out.fresh("n")
+        position = self.local("k", self.base)
+        start = self.out.fresh("i")
+        key, packer = self.out.structure(["I"])
+        unpack = self.out.bind("u", packer.unpack_from, ("unpack", key))
+        self.out.line(f"for _ in range({count}):")
+        self.out.depth += 1
+        self.out.line(f"{size}, = {unpack}(data, {position})")
+        self.out.line(f"{start} = {position} + 4")
+        self.out.line(f"{position} = {start} + {size}")
+        self.out.line(f"{items}.append({self.text(start, position)})")
+        self.out.depth -= 1
+        self.base = position
+        self.store(owner, field, items)
+
+    def check_count(self, count: str, item_size: int) -> None:
+        """Refuse a count for which there are not octets enough, before anything is made."""
+        if item_size:
+            self.out.line(f"if {item_size} * {count} > end - {self.base}: raise ValueError")
+        else:
+            self.out.line(f"empty += {count}")
+            self.out.line(f"if empty > {MAX_EMPTY}: raise ValueError")
+
+    def messages(self, nested: type[Message], field: Field, owner: str) -> None:
+        class_ = self.out.bind("C", nested, nested)
+        size = nested._fixed_size
+        if size and self.row is not None:
+            # Inside a row: the octets of these elements are one value of it.
+            octets = self.out.fresh("x")
+            assert field.array_len is not None
+            self.take(f"{size * field.array_len}s", octets)
+            self.rows(nested, field, owner, octets, class_)
+        elif size:
+            count = self.length(field)
+            self.check_count(count, size)
+            stop = self.local("j", f"{self.base} + {size} * {count}")
+            octets = f"data[{self.base}:{stop}]"
+            self.base = stop
+            self.rows(nested, field, owner, octets, class_)
+        elif size == 0:
+            count = self.length(field) if self.row is None else str(field.array_len)
+            self.check_count(count, 0)
+            self.out.line("# nothing on the wire, and nothing in them that could differ")
+            self.store(owner, field, f"[{self.empty(nested)} for _ in range({count})]")
+        else:
+            self.varying(nested, field, owner, class_)
+
+    def empty(self, nested: type[Message]) -> str:
+        return f"{self.out.bind('C', nested, nested)}()"
+
+    def rows(
+        self, nested: type[Message], field: Field, owner: str, octets: str, class_: str
+    ) -> None:
+        """Elements of one fixed size: unpacked row by row."""
+        items = self.out.fresh("l")
+        row = self.out.fresh("r")
+        element = self.out.fresh("e")
+        inner = _Decoder(self.out, self.mode, "", row)
+        mark = len(self.out.lines)
+        self.out.depth += 1
+        self.out.line(f"{element} = new({class_})")
+        inner.message(nested, element)
+        key, packer = self.out.structure(inner.codes)
+        inner.flush()
+        self.out.line(f"{items}.append({element})")
+        self.out.depth -= 1
+        body = self.out.lines[mark:]
+        del self.out.lines[mark:]
+        rows = self.out.bind("r", packer.iter_unpack, ("rows", key))
+        head = [f"{items} = []", f"for {row} in {rows}({octets}):"]
+        self._emit_or_defer(head, body, owner, field, items)
+
+    def _emit_or_defer(
+        self, head: list[str], body: list[str], owner: str, field: Field, items: str
+    ) -> None:
+        pad = "    " * self.out.depth
+        if self.row is None:
+            for text in head:
+                self.out.line(text)
+            self.out.lines += body
+            self.store(owner, field, items)
+        else:
+            # The octets are known only once the row around them is unpacked.
+            self.after += head
+            self.after += [text.removeprefix(pad) for text in body]
+            self.assign_after(owner, field, items)
+
+    def varying(self, nested: type[Message], field: Field, owner: str, class_: str) -> None:
+        """Elements of any size: one after the other."""
+        count = self.length(field)
+        self.check_count(count, nested._min_size)
+        items = self.local("l", "[]")
+        position = self.local("k", self.base)
+        element = self.out.fresh("e")
+        self.out.line(f"for _ in range({count}):")
+        self.out.depth += 1
+        self.out.line(f"{element} = new({class_})")
+        inner = _Decoder(self.out, self.mode, position)
+        inner.message(nested, element)
+        inner.flush()
+        self.out.line(f"{position} = {inner.base}")
+        self.out.line(f"{items}.append({element})")
+        self.out.depth -= 1
+        self.base = position
+        self.store(owner, field, items)
+
+
+def decoder_source(cls: type[Message], mode: Mode, *, exact: bool = False) -> Source:
+    """The source of a decoder; ``exact`` refuses octets that are left over."""
+    out = Source("decode", "data, pos, end")
+    out.line("try:")
+    out.depth += 1
+    out.line("empty = 0")
+    mark = len(out.lines) - 1
+    decoder = _Decoder(out, mode, "pos")
+    root = decoder.local("m", f"new({out.bind('C', cls, cls)})")
+    decoder.message(cls, root)
+    decoder.flush()
+    out.line(f"if {decoder.base} {'!=' if exact else '>'} end: raise ValueError")
+    out.line(f"return {root}")
+    out.depth -= 1
+    if not any("empty +=" in line for line in out.lines):
+        del out.lines[mark]
+    if mode == "bytes":
+        out.line("except UnicodeDecodeError:")
+        out.line("    return escaped(data, pos, end)")
+    out.line("except (struct_error, ValueError, TypeError, OverflowError):")
+    out.line("    raise explain(data, pos, end) from None")
+    return out
+
+
+def make_decoder(
+    cls: type[Message],
+    mode: Mode,
+    explain: Callable[[Any, int, int], Exception],
+    *,
+    exact: bool = False,
+    escaped: Callable[[Any, int, int], Any] | None = None,
+) -> Callable[[Any, int, int], Any]:
+    """Compile a decoder.
+
+    ``explain`` makes the exception when it fails; ``escaped`` takes over (in mode
+    ``bytes``) when a text is not UTF-8.
+    """
+    source = decoder_source(cls, mode, exact=exact)
+    source.globals["explain"] = explain
+    source.globals["escaped"] = escaped
+    return source.compile(cls._type)

@@ -1,0 +1,104 @@
+"""MD5 sums and full texts of definitions, as gendeps makes them.
+
+``lookup`` is in all of these a function from ``pkg/Type`` to the spec of a message.
+"""
+
+
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from typing import TypeAlias
+
+from ..errors import MessageSpecError
+from .spec import MessageSpec, ServiceSpec
+
+__all__ = ["Lookup", "closure", "full_text", "md5_text", "md5sum", "split_full_text"]
+
+Lookup: TypeAlias = Callable[[str], MessageSpec]
+
+_RULE = "=" * 80
+
+
+def md5_text(spec: MessageSpec, lookup: Lookup, known: dict[str, str] | None = None) -> str:
+    """The text that the MD5 sum of a message is made of.
+
+    Constants first, then the fields; types of messages are replaced by their MD5 sums.
+    ``known`` (changed in place) remembers the sums of dependencies from call to call.
+    """
+    known = {} if known is None else known
+    lines = [f"{c.type} {c.name}={c.text}" for c in spec.constants]
+    for field in spec.fields:
+        if field.is_builtin:
+            lines.append(f"{field.type} {field.name}")
+            continue
+        base = field.base_type
+        if base not in known:
+            known[base] = _hash(md5_text(lookup(base), lookup, known))
+        lines.append(f"{known[base]} {field.name}")
+    return "\n".join(lines).strip()
+
+
+def md5sum(
+    spec: MessageSpec | ServiceSpec, lookup: Lookup, known: dict[str, str] | None = None
+) -> str:
+    """The MD5 sum that stands for a definition in connection headers."""
+    known = {} if known is None else known
+    if isinstance(spec, ServiceSpec):
+        return _hash(md5_text(spec.request, lookup, known) + md5_text(spec.response, lookup, known))
+    return _hash(md5_text(spec, lookup, known))
+
+
+def _hash(text: str) -> str:
+    data = text.encode("utf-8", "surrogateescape")
+    return hashlib.md5(data, usedforsecurity=False).hexdigest()
+
+
+def closure(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> list[str]:
+    """All types that the definition needs, each after the first that needs it."""
+    found: dict[str, None] = {}
+
+    def visit(message: MessageSpec) -> None:
+        for name in message.dependencies:
+            if name not in found:
+                found[name] = None
+                visit(lookup(name))
+
+    if isinstance(spec, ServiceSpec):
+        # genmsg keeps the dependencies of the request under another name than the
+        # service's, but names those of both in the full text of the service.
+        visit(spec.request)
+        visit(spec.response)
+    else:
+        visit(spec)
+    return list(found)
+
+
+def full_text(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> str:
+    """The definition's text with those of all types it needs: ``message_definition``."""
+    parts = [spec.text]
+    parts += [f"{_RULE}\nMSG: {name}\n{lookup(name).text}" for name in closure(spec, lookup)]
+    return "\n".join(parts)
+
+
+def split_full_text(type: str, text: str) -> dict[str, str]:
+    """The texts that :func:`full_text` put together, by type; ``type`` is the first's name.
+
+    Lenient in what it takes, as the texts come from all kinds of programs: a rule is any
+    line of equals signs before a line ``MSG: pkg/Type``.
+    """
+    lines = text.split("\n")
+    texts: dict[str, str] = {}
+    name, start = type, 0
+    for number, line in enumerate(lines):
+        follower = lines[number + 1].strip() if number + 1 < len(lines) else ""
+        if line.startswith("=====") and not line.strip("=\r \t") and follower.startswith("MSG:"):
+            texts.setdefault(name, "\n".join(lines[start:number]))
+            name, start = follower[4:].strip(), number + 2
+            if "/" not in name:
+                raise MessageSpecError(
+                    f"expected 'MSG: package/Type', got {follower!r}", path=type, line=number + 2
+                )
+    texts.setdefault(name, "\n".join(lines[start:]))
+    return texts

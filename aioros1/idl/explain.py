@@ -1,0 +1,96 @@
+"""Why octets are not a message: the slow reader that runs after a decoder has failed."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..errors import DeserializationError
+from .builtin_types import BUILTINS
+from .codegen_decode import MAX_EMPTY
+from .spec import Field
+
+if TYPE_CHECKING:
+    from .message import Message
+
+__all__ = ["explainer"]
+
+_length = struct.Struct("<I").unpack_from
+
+
+class _Reader:
+    """Steps over the fields of a message, making nothing, until one does not fit."""
+
+    def __init__(self, cls: type[Message], data: Any, pos: int, end: int) -> None:
+        self.cls = cls
+        self.data = data
+        self.start = self.pos = pos
+        self.end = min(end, len(data))
+        self.empty = 0
+
+    def fail(self, path: str, text: str) -> DeserializationError:
+        place = f"{self.cls._type}.{path}" if path else self.cls._type
+        return DeserializationError(f"{place}: {text} at offset {self.pos - self.start}")
+
+    def step(self, size: int, path: str) -> None:
+        left = self.end - self.pos
+        if size > left:
+            raise self.fail(path, f"{size} bytes expected, {max(left, 0)} left")
+        self.pos += size
+
+    def length(self, path: str) -> int:
+        self.step(4, path)
+        count: int = _length(self.data, self.pos - 4)[0]
+        return count
+
+    def message(self, cls: type[Message], path: str) -> None:
+        for field in cls._fields:
+            self.field(cls, field, f"{path}.{field.name}" if path else field.name)
+
+    def field(self, cls: type[Message], field: Field, path: str) -> None:
+        builtin = BUILTINS.get(field.base_type)
+        nested = None if builtin is not None else cls._nested[field.base_type]
+        if builtin is not None:
+            size = builtin.size if builtin.kind != "string" else None
+        else:
+            assert nested is not None
+            size = nested._fixed_size
+        count = 1
+        if field.is_array:
+            count = self.length(path) if field.array_len is None else field.array_len
+            if size == 0:
+                self.empty += count
+                if self.empty > MAX_EMPTY:
+                    raise self.fail(path, f"{count} messages without content, more than accepted")
+        if size is not None:
+            self.step(count * size, path)
+            return
+        smallest = 4 if nested is None else nested._min_size
+        if count * smallest > self.end - self.pos:
+            self.step(count * smallest, path)
+        for index in range(count):
+            place = f"{path}[{index}]" if field.is_array else path
+            if nested is None:
+                self.step(self.length(place), place)
+            else:
+                self.message(nested, place)
+
+
+def explainer(
+    cls: type[Message], *, exact: bool
+) -> Callable[[Any, int, int], DeserializationError]:
+    """The function that a decoder of ``cls`` calls to say what was wrong."""
+
+    def explain(data: Any, pos: int, end: int) -> DeserializationError:
+        reader = _Reader(cls, data, pos, end)
+        try:
+            reader.message(cls, "")
+        except DeserializationError as error:
+            return error
+        left = reader.end - reader.pos
+        if exact and left:
+            return reader.fail("", f"{left} bytes too many")
+        return reader.fail("", "not a message of this type, for a reason unknown")
+
+    return explain

@@ -1,0 +1,208 @@
+"""Specs to classes."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable, Mapping
+from keyword import iskeyword
+from typing import Any, cast
+
+from ..errors import MessageSpecError
+from ..time import Duration, Time
+from .builtin_types import BUILTINS
+from .message import Message, MessageType
+from .spec import Field, MessageSpec
+
+__all__ = ["make_message_class"]
+
+_MAX_SIZE = 1 << 31
+_MAX_LEAVES = 20_000
+_MAX_LOOPS = 12
+
+_ZERO = {
+    "int": 0,
+    "float": 0.0,
+    "bool": False,
+    "string": "",
+    "time": Time(),
+    "duration": Duration(),
+}
+
+
+class _Unset:
+    """The default of parameters whose real default is made anew for each message."""
+
+    def __repr__(self) -> str:
+        return "<default>"
+
+
+_UNSET = _Unset()
+
+
+def make_message_class(
+    spec: MessageSpec,
+    nested: Mapping[str, type[Message]],
+    *,
+    md5sum: str,
+    full_text: str,
+    module: str,
+) -> type[Message]:
+    """Make the class of a message type.
+
+    ``nested`` has the classes of the types that its fields are of. Raises
+    :class:`MessageSpecError` for a definition out of all proportion: codecs are as long
+    as the flattened definition, and definitions come from peers, too.
+    """
+    for field in spec.fields:
+        if field.array_len is not None and field.array_len >= _MAX_SIZE:
+            raise MessageSpecError(f"{field.name}: an array of over 2 GiB", path=spec.type)
+    leaves = _leaves(spec, nested)
+    loops = _loops(spec, nested)
+    min_size, fixed = _size(spec, nested)
+    if leaves > _MAX_LEAVES:
+        raise MessageSpecError(f"more than {_MAX_LEAVES} fields, all told", path=spec.type)
+    if loops > _MAX_LOOPS:
+        raise MessageSpecError(f"arrays nested {_MAX_LOOPS} deep", path=spec.type)
+    if min_size >= _MAX_SIZE:
+        raise MessageSpecError("a message of over 2 GiB", path=spec.type)
+
+    slots = tuple(field.name for field in spec.fields)
+    namespace: dict[str, Any] = {
+        "__slots__": slots,
+        "__module__": module,
+        "__doc__": f"The message type {spec.type}.",
+        "_type": spec.type,
+        "_md5sum": md5sum,
+        "_full_text": full_text,
+        "_has_header": spec.has_header,
+        "_slot_types": [field.type for field in spec.fields],
+        "_spec": spec,
+        "_fields": spec.fields,
+        "_constants": spec.constants,
+        "_nested": dict(nested),
+        "_closure": frozenset({spec.type}).union(*(cls._closure for cls in nested.values())),
+        "_fixed_size": min_size if fixed else None,
+        "_min_size": min_size,
+        "_has_bulk": _has_bulk(spec, nested),
+        "_leaves": leaves,
+        "_loops": loops,
+        "__init__": _constructor(spec, nested),
+    }
+    for constant in spec.constants:
+        # Not one that a field shadows, nor one that would break the class: names of
+        # constants are not checked by genmsg at all.
+        name = constant.name
+        if name.isidentifier() and name not in slots and not name.startswith("_"):
+            namespace[name] = constant.value
+    made: Any = MessageType(spec.type.partition("/")[2], (Message,), namespace)
+    return cast("type[Message]", made)
+
+
+def _leaves(spec: MessageSpec, nested: Mapping[str, Any]) -> int:
+    """How many fields the definition has, all told: the length of its codecs."""
+    return sum(1 if f.is_builtin else 1 + nested[f.base_type]._leaves for f in spec.fields)
+
+
+def _loops(spec: MessageSpec, nested: Mapping[str, Any]) -> int:
+    """How deep arrays of messages hold such arrays; Python nests 20 blocks at most."""
+    return max(
+        (nested[f.base_type]._loops + f.is_array for f in spec.fields if not f.is_builtin),
+        default=0,
+    )
+
+
+def _size(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> tuple[int, bool]:
+    """The smallest size on the wire, and whether it is the only one."""
+    total, fixed = 0, True
+    for field in spec.fields:
+        builtin = BUILTINS.get(field.base_type)
+        if builtin is None:
+            size = nested[field.base_type]._min_size
+            item_fixed = nested[field.base_type]._fixed_size is not None
+        else:
+            size, item_fixed = builtin.size, builtin.kind != "string"
+        if field.is_array and field.array_len is None:
+            size, item_fixed = 4, False
+        elif field.array_len is not None:
+            size *= field.array_len
+            item_fixed = item_fixed or field.array_len == 0
+        total += size
+        fixed = fixed and item_fixed
+    return total, fixed
+
+
+def _has_bulk(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> bool:
+    for field in spec.fields:
+        builtin = BUILTINS.get(field.base_type)
+        if builtin is None:
+            if not field.is_array and nested[field.base_type]._has_bulk:
+                return True
+        elif field.is_array and field.array_len is None and builtin.kind in ("int", "float"):
+            return True
+    return False
+
+
+def _constructor(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> Callable[..., None]:
+    """Write ``__init__``: parameters by name with plain defaults are the quickest there are.
+
+    Names of the generated code begin with an underscore, which those of fields cannot.
+    """
+    names: dict[str, Any] = {"_unset": _UNSET, "_array": array}
+    parameters, body, given = [], [], []
+    for number, field in enumerate(spec.fields):
+        default, made = _default(field, nested, names, number)
+        if iskeyword(field.name):
+            body.append(f"    setattr(_self, {field.name!r}, {made or default})")
+        elif made is not None:
+            parameters.append(f"{field.name}=_unset")
+            body.append(
+                f"    _self.{field.name} = {made} if {field.name} is _unset else {field.name}"
+            )
+            given.append(f"{field.name} is not _unset")
+        else:
+            parameters.append(f"{field.name}={default}")
+            body.append(f"    _self.{field.name} = {field.name}")
+            given.append(f"{field.name} is not {default}")
+    signature = ", ".join(["_self", "*_values", *parameters, "**_others"])
+    lines = [
+        f"def __init__({signature}):",
+        "    if _values:",
+        f"        return _self._set_positional(_values, bool({' or '.join([*given, '_others'])}))",
+        *body,
+        "    if _others: _self._set_unusual(_others)",
+    ]
+    exec(compile("\n".join(lines), f"<constructor of {spec.type}>", "exec"), names)
+    function: Callable[..., None] = names["__init__"]
+    function.__qualname__ = f"{spec.type.partition('/')[2]}.__init__"
+    return function
+
+
+def _default(
+    field: Field, nested: Mapping[str, type[Message]], names: dict[str, Any], number: int
+) -> tuple[str, str | None]:
+    """An expression for a default that can be shared, or one that makes a fresh one."""
+    builtin = BUILTINS.get(field.base_type)
+    constant = f"_d{number}"
+    length = field.array_len
+    if not field.is_array:
+        if builtin is None:
+            names[f"_C{number}"] = nested[field.base_type]
+            return "", f"_C{number}()"
+        names[constant] = _ZERO[builtin.kind]
+        return constant, None
+    if builtin is None:
+        names[f"_C{number}"] = nested[field.base_type]
+        return "", "[]" if length is None else f"[_C{number}() for _ in range({length})]"
+    if builtin.octets:
+        # Made where it is used, should it be large; there are classes nobody fills in.
+        if length is None or length <= 4096:
+            names[constant] = bytes(length or 0)
+            return constant, None
+        return "", f"bytes({length})"
+    if builtin.kind in ("int", "float"):
+        octets = "" if length is None else f", bytes({length * builtin.size})"
+        return "", f"_array({builtin.code!r}{octets})"
+    if length is None:
+        return "", "[]"
+    names[constant] = _ZERO[builtin.kind]
+    return "", f"[{constant}] * {length}"

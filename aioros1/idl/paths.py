@@ -1,0 +1,178 @@
+"""Where definition files are: the places of a ROS 1 installation, and our own bundle."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+__all__ = ["KINDS", "Kind", "SearchPath"]
+
+Kind: TypeAlias = Literal["msg", "srv", "action"]
+KINDS: tuple[Kind, ...] = ("msg", "srv", "action")
+
+_STOP_FILES = frozenset(
+    {"CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs", "NO_ROS"}
+)
+_PACKAGE_NAME = re.compile(rb"<name>\s*([A-Za-z][\w-]*)\s*</name>")
+_PACKAGE_FILES = ("package.xml", "manifest.xml")
+
+
+def bundle() -> Path:
+    """The definitions that come with the library."""
+    package = Path(__file__).resolve().parent.parent
+    packed = package / "share" / "msg"  # in a wheel
+    return packed if packed.is_dir() else package.parent / "share" / "msg"
+
+
+def installed() -> Iterator[Path]:
+    """The ``share`` directories of the ROS 1 distributions on this machine."""
+    # A ROS 2 lies in the same place, with other definitions by the same names.
+    marked = [path.parent / "share" for path in Path("/opt/ros").glob("*/.catkin")]
+    preferred = os.environ.get("ROS_DISTRO")
+    yield from sorted(marked, key=lambda path: (path.parent.name == preferred, path), reverse=True)
+    yield Path("/usr/share")
+
+
+class _Root:
+    """One place, in any of the layouts in use.
+
+    ``<root>/<pkg>/msg/T.msg`` and ``<root>/<pkg>/T.msg``; the package itself, or its
+    ``msg`` directory, as the root; and, with ``crawl``, packages at any depth, which are
+    known by their ``package.xml``.
+    """
+
+    def __init__(self, path: Path, *, crawl: bool) -> None:
+        self.path = path
+        self.crawl = crawl
+        self._crawled: dict[str, Path] | None = None
+
+    def directories(self, package: str, kind: Kind) -> Iterator[Path]:
+        """Where files of the package may be; the cheap places first."""
+        path = self.path
+        yield path / package / kind
+        yield path / package
+        if path.name == package:
+            yield path / kind
+        if path.name == kind and path.parent.name == package:
+            yield path
+        crawled = self.crawled().get(package)
+        if crawled is not None:
+            yield crawled / kind
+
+    def packages(self) -> set[str]:
+        found = set(self.crawled())
+        path = self.path
+        if any((path / kind).is_dir() for kind in KINDS):
+            found.add(path.name)
+        if path.name in KINDS:
+            found.add(path.parent.name)
+        found.update(entry.name for entry in _subdirectories(path))
+        return found
+
+    def crawled(self) -> dict[str, Path]:
+        """The packages found by their files, read once."""
+        if self._crawled is None:
+            self._crawled = dict(_crawl(self.path)) if self.crawl else {}
+        return self._crawled
+
+
+def _subdirectories(path: Path | str) -> list[os.DirEntry[str]]:
+    try:
+        with os.scandir(path) as entries:
+            found = [e for e in entries if not e.name.startswith(".") and e.is_dir()]
+    except OSError:
+        return []
+    return sorted(found, key=lambda entry: entry.name)
+
+
+def _crawl(root: Path) -> Iterator[tuple[str, Path]]:
+    """Name and directory of each package below; of two by one name, the first."""
+    seen: set[str] = set()
+    names: set[str] = set()
+    waiting = [str(root)]
+    while waiting:
+        path = waiting.pop(0)
+        real = os.path.realpath(path)
+        if real in seen:
+            continue  # a symbolic link that leads back
+        seen.add(real)
+        try:
+            content = set(os.listdir(path))
+        except OSError:
+            continue
+        if content & _STOP_FILES and "rospack_nosubdirs" not in content:
+            continue
+        manifest = next((name for name in _PACKAGE_FILES if name in content), None)
+        if manifest is not None:
+            name = _package_name(os.path.join(path, manifest)) or os.path.basename(path)
+            if name not in names:
+                names.add(name)
+                yield name, Path(path)
+            continue  # there are no packages inside packages
+        if "rospack_nosubdirs" not in content:
+            waiting += [entry.path for entry in _subdirectories(path)]
+
+
+def _package_name(manifest: str) -> str | None:
+    try:
+        with open(manifest, "rb") as file:
+            match = _PACKAGE_NAME.search(file.read(65536))
+    except OSError:
+        return None
+    return match[1].decode() if match else None
+
+
+class SearchPath:
+    """An ordered list of places.
+
+    ``standard`` adds those of the environment (``ROS_PACKAGE_PATH``), of an installed
+    ROS and the bundle. Nothing is read before the first question; what ``ROS_PACKAGE_PATH``
+    says is looked at again when it has changed.
+    """
+
+    def __init__(self, paths: Iterable[str | os.PathLike[str]] = (), *, standard: bool = False):
+        self._given = [_Root(Path(path), crawl=True) for path in paths]
+        self._standard = standard
+        self._environment: tuple[str | None, list[_Root]] = ("", [])
+        self._fixed: list[_Root] | None = None
+
+    def _roots(self) -> list[_Root]:
+        if not self._standard:
+            return self._given
+        if self._fixed is None:
+            self._fixed = [_Root(path, crawl=False) for path in (*installed(), bundle())]
+        value = os.environ.get("ROS_PACKAGE_PATH", "")
+        if self._environment[0] != value:
+            parts = filter(None, value.split(os.pathsep))
+            self._environment = value, [_Root(Path(part), crawl=True) for part in parts]
+        return [*self._given, *self._environment[1], *self._fixed]
+
+    def find(self, package: str, name: str, kind: Kind) -> Path | None:
+        """The file that defines ``package/name``, or None."""
+        for root in self._roots():
+            for directory in root.directories(package, kind):
+                path = directory / f"{name}.{kind}"
+                if path.is_file():
+                    return path
+        return None
+
+    def types(self, package: str, kind: Kind) -> set[str]:
+        """The names (without the package) of all types of the package."""
+        return {
+            path.stem
+            for root in self._roots()
+            for directory in root.directories(package, kind)
+            for path in directory.glob(f"*.{kind}")
+        }
+
+    def packages(self) -> set[str]:
+        """The packages that have definitions of any kind."""
+        names = set().union(*(root.packages() for root in self._roots()))
+        return {name for name in names if any(self.types(name, kind) for kind in KINDS)}
+
+    def places(self) -> list[str]:
+        """The places searched, for an error."""
+        return [str(root.path) for root in self._roots()]

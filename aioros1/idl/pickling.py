@@ -1,0 +1,44 @@
+"""Pickling of messages, whose classes are made at run time."""
+
+
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+from .values import own_memory
+
+if TYPE_CHECKING:
+    from .message import Message
+
+__all__ = ["reduce_message"]
+
+
+def reduce_message(message: Message) -> tuple[Any, ...]:
+    """By the class's name where that leads to the class, else by its definition."""
+    cls = type(message)
+    values = tuple(
+        own_memory(value) if isinstance(value, memoryview) else value
+        for value in (getattr(message, name) for name in message.__slots__)
+    )
+    module = sys.modules.get(cls.__module__)
+    if module is not None and getattr(module, cls.__name__, None) is cls:
+        return _restore, (cls, values)
+    return _restore_defined, (cls._type, cls._md5sum, cls._full_text, values)
+
+
+def _restore(cls: type[Message], values: tuple[Any, ...]) -> Message:
+    message: Message = object.__new__(cls)
+    for name, value in zip(cls.__slots__, values, strict=True):
+        setattr(message, name, value)
+    return message
+
+
+def _restore_defined(type: str, md5sum: str, full_text: str, values: tuple[Any, ...]) -> Message:
+    from .store import default_store
+
+    cls = default_store().add_definition(type, full_text)
+    if cls._md5sum != md5sum:
+        raise TypeError(f"the pickled definition of {type} is not the one it was")
+    return _restore(cls, values)

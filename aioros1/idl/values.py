@@ -1,0 +1,288 @@
+"""What generated code calls for values that are not of the usual kind.
+
+The generated encoders handle the class that a field holds by default inline and come
+here for all others. Each function returns what can be packed or joined, and raises some
+exception for what does not fit: which, does not matter, as the encoder then has
+:mod:`.check` look for the cause and word it.
+"""
+
+from __future__ import annotations
+
+import struct
+import sys
+from array import array
+from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
+from math import inf, isinf
+from typing import Any, Final
+
+from ..time import Duration, Time
+
+__all__ = [
+    "as_bool",
+    "as_bools",
+    "as_duration",
+    "as_list",
+    "as_message",
+    "as_numbers",
+    "as_octets",
+    "as_text",
+    "as_text_escaped",
+    "as_time",
+    "collect",
+    "load_array",
+    "own_memory",
+    "pack_durations",
+    "pack_strings",
+    "pack_strings_escaped",
+    "pack_times",
+]
+
+LITTLE: Final = sys.byteorder == "little"
+BULK: Final = 16384
+"""Payloads of at least this many bytes are worth a part of their own. Copying 16 KiB
+takes about half a microsecond, as much as one more buffer costs in a vectored write."""
+
+_pack_length = struct.Struct("<I").pack
+_pack_time = struct.Struct("<II").pack
+_pack_duration = struct.Struct("<ii").pack
+_BOOLS = b"\0\1"
+
+
+def as_time(value: Any) -> Time:
+    """Anything with whole ``secs`` and ``nsecs``, such as genpy's."""
+    if isinstance(value, Duration):
+        raise TypeError("a duration is not a time")
+    return Time._raw(value.secs.__index__(), value.nsecs.__index__())
+
+
+def as_duration(value: Any) -> Duration:
+    """Anything with whole ``secs`` and ``nsecs``, such as genpy's."""
+    if isinstance(value, Time):
+        raise TypeError("a time is not a duration")
+    return Duration._raw(value.secs.__index__(), value.nsecs.__index__())
+
+
+def as_bool(value: Any) -> bool:
+    """True, False, 0, 1 and NumPy's booleans."""
+    if type(value).__module__ == "numpy" and hasattr(value, "item"):
+        value = value.item()
+    if value is True or value is False:
+        return bool(value)
+    number = value.__index__()
+    if number not in (0, 1):
+        raise ValueError("neither 0 nor 1")
+    return bool(number)
+
+
+def as_text(value: Any) -> bytes:
+    """Subclasses of str, and bytes, which stand for themselves."""
+    if isinstance(value, str):
+        return value.encode()
+    if isinstance(value, (bytes, bytearray)):
+        return bytes(value)
+    raise TypeError("neither str nor bytes")
+
+
+def as_text_escaped(value: Any) -> bytes:
+    """As :func:`as_text`, for strings that were not UTF-8 when they were received."""
+    if isinstance(value, str):
+        return value.encode("utf-8", "surrogateescape")
+    return as_text(value)
+
+
+def as_list(value: Any) -> Sequence[Any]:
+    """A sequence of anything: list, tuple, range, a NumPy array, but no string."""
+    if isinstance(value, (list, tuple)):
+        return value
+    if isinstance(value, (str, bytes, bytearray, AbstractSet, dict)):
+        raise TypeError("not a list")
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+        if not isinstance(value, list):
+            raise TypeError("not a list")
+        return value
+    if isinstance(value, Sequence):
+        return list(value)
+    raise TypeError("not a list")
+
+
+def as_message(value: Any) -> Any:
+    """A message of a type without fields: there is nothing that could be missing."""
+    if not hasattr(type(value), "_md5sum"):
+        raise TypeError("not a message")
+    return value
+
+
+def as_octets(value: Any) -> bytes | bytearray | memoryview:
+    """The value of a ``uint8[]``: bytes-like, or a sequence of 0 to 255."""
+    if isinstance(value, (bytes, bytearray)):
+        return value
+    if isinstance(value, (list, tuple)):
+        return bytes(value)
+    try:
+        view = memoryview(value)
+    except TypeError:
+        return bytes(as_list(value))
+    if view.ndim != 1 or view.format.lstrip("@=<>|") != "B":
+        raise TypeError("not a one-dimensional buffer of uint8")
+    return view if view.c_contiguous else view.tobytes()
+
+
+def as_bools(value: Any) -> bytes:
+    """The octets of a ``bool[]``."""
+    if isinstance(value, (list, tuple)):
+        try:
+            octets = bytes(value)
+        except TypeError:
+            pass
+        else:
+            if octets.translate(None, _BOOLS):
+                raise ValueError("neither 0 nor 1")
+            return octets
+    return bytes([as_bool(item) for item in as_list(value)])
+
+
+def pack_strings(values: Any) -> bytes:
+    """The elements of a ``string[]``."""
+    parts: list[bytes] = []
+    add = parts.append
+    for value in values:
+        text = value.encode() if value.__class__ is str else as_text(value)
+        add(_pack_length(len(text)))
+        add(text)
+    return b"".join(parts)
+
+
+def pack_strings_escaped(values: Any) -> bytes:
+    """As :func:`pack_strings`, for strings that were not UTF-8 when they were received."""
+    parts: list[bytes] = []
+    for value in values:
+        text = as_text_escaped(value)
+        parts += (_pack_length(len(text)), text)
+    return b"".join(parts)
+
+
+def pack_times(values: Any) -> bytes:
+    """The elements of a ``time[]``."""
+    parts = []
+    for value in values:
+        time = value if value.__class__ is Time else as_time(value)
+        parts.append(_pack_time(time._secs, time._nsecs))
+    return b"".join(parts)
+
+
+def pack_durations(values: Any) -> bytes:
+    """The elements of a ``duration[]``."""
+    parts = []
+    for value in values:
+        duration = value if value.__class__ is Duration else as_duration(value)
+        parts.append(_pack_duration(duration._secs, duration._nsecs))
+    return b"".join(parts)
+
+
+def _shape(code: str) -> tuple[str, int]:
+    """Kind and size of the items of a buffer; letters differ between platforms."""
+    if code in ("f", "d"):
+        kind = "float"
+    elif code in ("b", "h", "i", "l", "q", "n"):
+        kind = "int"
+    elif code in ("B", "H", "I", "L", "Q", "N"):
+        kind = "unsigned"
+    else:
+        return "", 0
+    return kind, struct.calcsize(code)
+
+
+def as_numbers(code: str) -> Callable[[Any], array[Any] | memoryview]:
+    """The function that makes a wire-ready buffer for arrays of one numeric type.
+
+    What it returns has the number of elements as its length, and is little-endian.
+    """
+    shape = _shape(code)
+
+    def convert(value: Any) -> array[Any] | memoryview:
+        if isinstance(value, (list, tuple)):
+            return to_wire(_from_items(code, value))
+        try:
+            view = memoryview(value)
+        except TypeError:
+            return to_wire(_from_items(code, as_list(value)))
+        order = view.format[:1] if view.format[:1] in "@=<>!" else ""
+        letter = view.format[len(order) :]
+        if view.ndim != 1:
+            raise TypeError("not one-dimensional")
+        # `<l` has the size that the letter has in the standard, `l` the one it has here.
+        size = struct.calcsize(order + letter) if _shape(letter)[1] else 0
+        if (_shape(letter)[0], size) != shape:
+            raise TypeError(f"a buffer of other items: {view.format!r}")
+        if order in (">", "!") if LITTLE else order == "<":
+            return to_wire(_from_items(code, value.tolist()))
+        if LITTLE and view.c_contiguous:
+            return view
+        numbers: array[Any] = array(code)
+        numbers.frombytes(view.tobytes())
+        return to_wire(numbers)
+
+    return convert
+
+
+def to_wire(numbers: array[Any]) -> array[Any]:
+    """Swap the bytes of a fresh array where the machine is not little-endian."""
+    if not LITTLE:
+        numbers.byteswap()
+    return numbers
+
+
+def load_array(code: str, octets: Any) -> array[Any]:
+    """The array whose little-endian octets these are."""
+    numbers: array[Any] = array(code)
+    numbers.frombytes(octets)
+    return to_wire(numbers)
+
+
+def _from_items(code: str, items: Sequence[Any]) -> array[Any]:
+    numbers: array[Any] = array(code, items)
+    # array() rounds what is too large for a float32 to infinity; struct refuses it.
+    if code == "f" and (inf in numbers or -inf in numbers):
+        for item, number in zip(items, numbers, strict=True):
+            if isinf(number) and not isinf(item):
+                raise OverflowError("out of the range of float32")
+    return numbers
+
+
+def own_memory(view: memoryview) -> bytes | array[Any]:
+    """What a decoder that copies would have made in place of a view."""
+    if view.format == "B":
+        return view.tobytes()
+    numbers: array[Any] = array(view.format)
+    numbers.frombytes(view.tobytes())
+    return numbers
+
+
+def collect(parts: Sequence[Any]) -> list[bytes | memoryview]:
+    """The same octets in fewer parts: small ones joined, large immutable ones as they are.
+
+    What the caller could still change is copied, once.
+    """
+    result: list[bytes | memoryview] = []
+    small: list[Any] = []
+    for part in parts:
+        if part.__class__ is bytes:
+            if len(part) < BULK:
+                small.append(part)
+                continue
+        else:
+            view = memoryview(part)
+            if view.nbytes < BULK:
+                small.append(part)
+                continue
+            # Only the memory of a bytes object can never change.
+            part = view.cast("B") if view.obj.__class__ is bytes else view.tobytes()
+        if small:
+            result.append(b"".join(small))
+            small = []
+        result.append(part)
+    if small:
+        result.append(b"".join(small))
+    return result

@@ -1,0 +1,139 @@
+"""Tells nodes what has changed, each in its own time.
+
+A node that hangs or is gone must never delay the news of the others: with three such nodes
+rosmaster, which has three threads for this, goes silent for the whole graph. Here every
+node has a queue and, while there is something in it, a task. Only the newest of several
+messages about one thing is kept, so that a queue stays short and an old list of publishers
+can never overtake a newer one.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from aioros1.master.parameters import ParamUpdate
+from aioros1.master.registry import Notification, PublisherUpdate
+from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
+
+__all__ = ["Notifier"]
+
+_LOG = logging.getLogger("aioros1.master")
+_CALLER_ID = "/master"
+
+# Parameters a follower of "/" can be behind with; topics are bounded by themselves.
+_MAX_PENDING = 10_000
+
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.5, 30.0
+
+_Slot = tuple[type, str, str]
+"""What a message is about: its kind, the topic or key, and the node for parameters."""
+
+
+class Notifier:
+    """Sends notifications to nodes through ``client``.
+
+    ``is_registered(api)`` says whether it is worth while to try again at an URI that did
+    not answer in time; ``on_unwanted(update)`` is called when a node says that it does not
+    follow a parameter. Both are plain functions.
+    """
+
+    def __init__(
+        self,
+        client: XmlRpcClient,
+        *,
+        is_registered: Callable[[str], bool],
+        on_unwanted: Callable[[ParamUpdate], object],
+    ) -> None:
+        self._client = client
+        self._is_registered = is_registered
+        self._on_unwanted = on_unwanted
+        self._queues: dict[str, dict[_Slot, Notification]] = {}
+        self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._closed = False
+
+    def send(self, notifications: Iterable[Notification]) -> None:
+        """Queue messages; never waits."""
+        if self._closed:
+            return
+        for message in notifications:
+            api = message.api
+            queue = self._queues.setdefault(api, {})
+            slot = _slot(message)
+            # To the end, not to the old place: what is queued between the two about a
+            # namespace below or above would otherwise have the last word.
+            queue.pop(slot, None)
+            queue[slot] = message
+            if len(queue) > _MAX_PENDING:
+                del queue[next(iter(queue))]
+                _LOG.warning("%s takes no notifications; the oldest is dropped", api)
+            if api not in self._tasks:
+                self._tasks[api] = asyncio.create_task(
+                    self._work(api, queue), name=f"aioros1-master-notify {api}"
+                )
+
+    async def close(self) -> None:
+        """Drop what is queued and what is being sent."""
+        self._closed = True
+        tasks = list(self._tasks.values())
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        self._queues.clear()
+
+    async def _work(self, api: str, queue: dict[_Slot, Notification]) -> None:
+        pause = _FIRST_PAUSE
+        try:
+            while queue:
+                slot = next(iter(queue))
+                message = queue.pop(slot)
+                try:
+                    await self._tell(message)
+                    pause = _FIRST_PAUSE
+                except TimeoutError as error:
+                    _LOG.warning("%s", error)
+                    if not self._is_registered(api):
+                        continue
+                    # It may still read this, and after what we send next. So this, or what
+                    # has taken its place, is sent again until it answers.
+                    if slot not in queue:
+                        rest = dict(queue)
+                        queue.clear()
+                        queue[slot] = message
+                        queue.update(rest)
+                    await asyncio.sleep(pause)
+                    pause = min(pause * 2, _LONGEST_PAUSE)
+                except (ConnectionError, XmlRpcError, XmlRpcFault) as error:
+                    _LOG.info("%s", error)
+                except Exception:
+                    _LOG.exception("cannot tell %s: %s", api, message)
+        finally:
+            del self._tasks[api]
+            del self._queues[api]
+
+    async def _tell(self, message: Notification) -> None:
+        answer: Any
+        if isinstance(message, PublisherUpdate):
+            answer = await self._client.call(
+                message.api, "publisherUpdate", _CALLER_ID, message.topic, message.publishers
+            )
+        elif isinstance(message, ParamUpdate):
+            answer = await self._client.call(
+                message.api, "paramUpdate", _CALLER_ID, message.key, message.value
+            )
+            if isinstance(answer, list) and answer[:1] == [-1]:
+                self._on_unwanted(message)
+        else:
+            answer = await self._client.call(message.api, "shutdown", _CALLER_ID, message.reason)
+        _LOG.debug("%s answered %s", message.api, answer)
+
+
+def _slot(message: Notification) -> _Slot:
+    if isinstance(message, PublisherUpdate):
+        return PublisherUpdate, message.topic, ""
+    if isinstance(message, ParamUpdate):
+        return ParamUpdate, message.key, message.caller_id
+    return type(message), message.caller_id, ""

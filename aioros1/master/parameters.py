@@ -1,0 +1,213 @@
+"""The tree of parameters, and who is to be told of a change. Pure: no I/O, no loop.
+
+Keys are resolved names. A dict is a namespace, anything else a parameter; an empty dict
+is a namespace without parameters. The tree is never changed in place: what was read from
+it stays as it was, so that answers and notifications need no copies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from aioros1.names import is_global, is_private, join
+from aioros1.wire.xmlrpc import MAX_DEPTH
+
+__all__ = ["ParamUpdate", "ParameterTree", "holds_nil", "param_updates", "subscription_key"]
+
+
+class ParamUpdate(NamedTuple):
+    """The node ``caller_id`` at ``api`` is to be told that a parameter has changed."""
+
+    api: str
+    caller_id: str
+    key: str
+    """What has changed, with a slash at the end, as every master sends it."""
+    value: Any
+    """The new value; an empty dict says that there is none."""
+
+
+class ParameterTree:
+    """All the parameters of a master.
+
+    ``max_depth`` bounds namespaces, arrays and structs inside one another: the whole
+    tree has to fit an answer that peers can read.
+    """
+
+    def __init__(self, *, max_depth: int = MAX_DEPTH - 1) -> None:
+        self._root: dict[str, Any] = {}
+        self._max_depth = max_depth
+
+    def get(self, key: str) -> Any:
+        """The value or the namespace at ``key``. Raises :class:`KeyError`."""
+        node: Any = self._root
+        for part in _parts(key):
+            if not isinstance(node, dict) or part not in node:
+                raise KeyError(key)
+            node = node[part]
+        return node
+
+    def has(self, key: str) -> bool:
+        """Whether there is a value or a namespace at ``key``."""
+        try:
+            self.get(key)
+        except KeyError:
+            return False
+        return True
+
+    def set(self, key: str, value: Any) -> None:
+        """Replace whatever is at ``key``; a dict becomes a namespace.
+
+        A plain value on the way to ``key`` gives way to a namespace. Raises
+        :class:`TypeError` for a root that is no dict, :class:`ValueError` for a tree that
+        would get too deep.
+        """
+        parts = _parts(key)
+        if not parts and not isinstance(value, dict):
+            raise TypeError("cannot set root of parameter tree to non-dictionary")
+        if len(parts) + _depth(value) > self._max_depth:
+            raise ValueError(f"more than {self._max_depth} namespaces inside one another")
+        for part, node in reversed(list(zip(parts, self._branch(parts), strict=True))):
+            value = {**node, part: value}
+        self._root = value
+
+    def delete(self, key: str) -> None:
+        """Remove ``key`` and all below it. Raises :class:`KeyError`, for the root as well.
+
+        The namespace it was in stays, be it empty now.
+        """
+        parts = _parts(key)
+        if not parts or not self.has(key):
+            raise KeyError(key)
+        branch = self._branch(parts)
+        node = {name: value for name, value in branch[-1].items() if name != parts[-1]}
+        for part, parent in reversed(list(zip(parts[:-1], branch[:-1], strict=True))):
+            node = {**parent, part: node}
+        self._root = node
+
+    def search(self, caller_id: str, key: str) -> str | None:
+        """The name under which the node ``caller_id`` finds ``key``, or ``None``.
+
+        The search starts in the node's private namespace and goes up. Only the first part
+        of ``key`` has to be there: who finds ``/ns/arm`` is told ``/ns/arm/speed``, be it
+        set or not. Raises :class:`ValueError` for a private key and for a ``caller_id``
+        that is not global.
+        """
+        if not key or is_private(key):
+            raise ValueError("invalid key")
+        if not is_global(caller_id):
+            raise ValueError("namespace must be global")
+        if is_global(key):
+            return key if self.has(key) else None
+        first = _parts(key)[0]
+        if self.has(join(caller_id, first)):
+            return join(caller_id, key)
+        namespaces = _parts(caller_id)
+        while namespaces:
+            namespaces.pop()
+            namespace = "/" + "/".join(namespaces)
+            if self.has(join(namespace, first)):
+                return join(namespace, key)
+        return None
+
+    def names(self) -> list[str]:
+        """The full names of all parameters; namespaces are not among them."""
+        return list(_names("", self._root))
+
+    def _branch(self, parts: list[str]) -> list[dict[str, Any]]:
+        """The namespaces that hold each of ``parts``; empty ones where there are none."""
+        branch: list[dict[str, Any]] = []
+        node: Any = self._root
+        for part in parts:
+            node = node if isinstance(node, dict) else {}
+            branch.append(node)
+            node = node.get(part)
+        return branch
+
+
+def param_updates(
+    subscribers: Mapping[str, Mapping[str, str]],
+    key: str,
+    value: Any,
+    *,
+    setter: str | None = None,
+) -> list[ParamUpdate]:
+    """Whom to tell what, after ``value`` was set at ``key``; an empty dict: deleted.
+
+    ``subscribers`` holds, for each :func:`subscription_key`, the nodes and their URIs.
+    Followers of ``key`` or of a namespace it is in are told of ``key`` itself, save the
+    node that has set it (``setter``); followers of something below are told of their own
+    part, and that it is gone if it is not in ``value``.
+    """
+    if not subscribers:
+        return []
+    changed = subscription_key(key)
+    updates: list[ParamUpdate] = []
+    namespace = changed
+    while True:
+        for caller_id, api in subscribers.get(namespace, {}).items():
+            if caller_id != setter:
+                updates.append(ParamUpdate(api, caller_id, changed, value))
+        if namespace == "/":
+            break
+        namespace = namespace[: namespace.rindex("/", 0, -1) + 1]
+    for followed, nodes in subscribers.items():
+        if len(followed) > len(changed) and followed.startswith(changed):
+            part = _descend(value, followed[len(changed) :])
+            updates += [ParamUpdate(api, node, followed, part) for node, api in nodes.items()]
+    return updates
+
+
+def subscription_key(key: str) -> str:
+    """``key`` with exactly one slash at the end: ``/a`` cannot be taken for part of ``/ab``."""
+    return "/".join(["", *_parts(key), ""])
+
+
+def holds_nil(value: Any) -> bool:
+    """Whether ``value`` is a nil or has one inside it.
+
+    Servers that store one can never again answer for it or for any namespace above.
+    """
+    pending = [value]
+    while pending:
+        value = pending.pop()
+        if value is None:
+            return True
+        if isinstance(value, dict):
+            pending += value.values()
+        elif isinstance(value, list):
+            pending += value
+    return False
+
+
+def _parts(key: str) -> list[str]:
+    return [part for part in key.split("/") if part]
+
+
+def _depth(value: Any) -> int:
+    """How many dicts and lists are inside one another."""
+    depth = 0
+    level = [value]
+    while level := [item for item in level if isinstance(item, dict | list)]:
+        depth += 1
+        level = [
+            inner for item in level for inner in (item.values() if isinstance(item, dict) else item)
+        ]
+    return depth
+
+
+def _descend(value: Any, path: str) -> Any:
+    for part in _parts(path):
+        if not isinstance(value, dict) or part not in value:
+            return {}
+        value = value[part]
+    return value
+
+
+def _names(namespace: str, node: Mapping[str, Any]) -> Iterator[str]:
+    for name, value in node.items():
+        full = f"{namespace}/{name}"
+        if isinstance(value, dict):
+            yield from _names(full, value)
+        else:
+            yield full

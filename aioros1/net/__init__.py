@@ -1,0 +1,1 @@
+"""Sockets: TCPROS over asyncio streams, XML-RPC over aiohttp."""

@@ -1,0 +1,197 @@
+"""Host names and addresses: which one to call, which one to listen on, which one to tell.
+
+asyncio looks names up in a thread. Most ROS graphs live on one machine and name it
+``localhost`` or by a number, and for these no thread is ever started.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import ipaddress
+import os
+import socket
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from aiohttp.abc import AbstractResolver
+
+if TYPE_CHECKING:
+    from aiohttp.abc import ResolveResult
+
+__all__ = [
+    "HostResolver",
+    "advertised_host",
+    "bind_address_for",
+    "bind_sockets",
+    "is_loopback",
+    "local_address",
+    "local_address_facing",
+    "resolve",
+    "uri_host",
+]
+
+_LOCALHOST = [(socket.AF_INET, "127.0.0.1"), (socket.AF_INET6, "::1")]
+
+
+async def resolve(host: str, port: int = 0) -> list[tuple[socket.AddressFamily, str]]:
+    """The numeric addresses of ``host``, the most promising first.
+
+    ``localhost`` is 127.0.0.1, then ::1. Raises :class:`OSError` (``socket.gaierror``)
+    for a name nobody knows.
+    """
+    literal = _literal(host)
+    if literal is not None:
+        return [literal]
+    if host.rstrip(".").lower() == "localhost":
+        return list(_LOCALHOST)
+    loop = asyncio.get_running_loop()
+    try:
+        infos = await loop.getaddrinfo(host, port, type=socket.SOCK_STREAM)
+    except UnicodeError as error:  # a label longer than 63 characters, and the like
+        raise socket.gaierror(socket.EAI_NONAME, f"{host!r} is not a host name: {error}") from None
+    found: dict[tuple[socket.AddressFamily, str], None] = {}
+    for family, _, _, _, address in infos:
+        if family in (socket.AF_INET, socket.AF_INET6):
+            found[family, str(address[0])] = None
+    return list(found)
+
+
+class HostResolver(AbstractResolver):
+    """:func:`resolve` for aiohttp."""
+
+    async def resolve(
+        self, host: str, port: int = 0, family: socket.AddressFamily = socket.AF_INET
+    ) -> list[ResolveResult]:
+        addresses = await resolve(host, port)
+        return [
+            {
+                "hostname": host,
+                "host": address,
+                "port": port,
+                "family": found,
+                "proto": 0,
+                "flags": socket.AI_NUMERICHOST,
+            }
+            for found, address in addresses
+            if family in (socket.AF_UNSPEC, found)
+        ]
+
+    async def close(self) -> None:
+        """Nothing is held."""
+
+
+def local_address_facing(remote: str) -> str:
+    """The numeric address of this machine that packets to ``remote`` leave from.
+
+    ``remote`` is a numeric address; nothing is sent, the kernel only chooses a route.
+    A loopback address faces itself. Raises :class:`OSError` when there is no route.
+    """
+    literal = _literal(remote)
+    if literal is None:
+        raise ValueError(f"expected a numeric address, got {remote!r}")
+    family, address = literal
+    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+        probe.connect((address, 9))  # the discard port; any would do
+        return str(probe.getsockname()[0])
+
+
+def local_address() -> str | None:
+    """The numeric address of this machine on its default route, ``None`` without one."""
+    for remote in ("192.0.2.1", "2001:db8::1"):  # reserved for documentation: never local
+        with contextlib.suppress(OSError):
+            address = local_address_facing(remote)
+            if not is_loopback(address):
+                return address
+    return None
+
+
+def advertised_host(environ: Mapping[str, str] | None = None) -> str:
+    """The host a server that listens on every interface should tell others.
+
+    ``ROS_HOSTNAME``, then ``ROS_IP``, as for every program of ROS 1; else the address on
+    the default route, else ``localhost``. rosmaster tells the machine's host name
+    instead, which other machines often cannot look up, and looking it up takes a thread.
+    """
+    environ = os.environ if environ is None else environ
+    for variable in ("ROS_HOSTNAME", "ROS_IP"):
+        if host := environ.get(variable, "").strip():
+            return host
+    return local_address() or "localhost"
+
+
+def bind_address_for(host: str) -> str:
+    """Where to listen when ``host`` is told to others: loopback stays loopback, anything
+    else means all interfaces, as for every program of ROS 1."""
+    if is_loopback(host):
+        return host.strip("[]") if _literal(host) else "127.0.0.1"
+    return "::" if ":" in host else "0.0.0.0"
+
+
+def is_loopback(host: str) -> bool:
+    """Whether ``host`` is ``localhost`` or a numeric loopback address."""
+    if host.rstrip(".").lower() == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False
+
+
+def uri_host(host: str) -> str:
+    """``host`` as it is written in a URI: numeric IPv6 in brackets."""
+    return f"[{host}]" if ":" in host and not host.startswith("[") else host
+
+
+def bind_sockets(host: str = "0.0.0.0", port: int = 0) -> list[socket.socket]:
+    """Listening sockets on the numeric address ``host`` (or ``localhost``).
+
+    ``"0.0.0.0"`` is every IPv4 interface, ``"::"`` every interface of both kinds in one
+    socket. Port 0 takes a free one. Raises :class:`OSError`, whose text names the address,
+    and :class:`ValueError` for what is no address or no port.
+    """
+    if host.rstrip(".").lower() == "localhost":
+        host = "127.0.0.1"
+    literal = _literal(host)
+    if literal is None:
+        raise ValueError(f"expected a numeric address to listen on, got {host!r}")
+    if not 0 <= port <= 65535:
+        raise ValueError(f"expected a port from 0 to 65535, got {port}")
+    family, address = literal
+    sock = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        # A master that is started again must not wait for the old connections to time out.
+        if os.name == "posix":
+            sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        if family == socket.AF_INET6:
+            sock.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, address != "::")
+        sock.bind((address, port))
+        sock.listen(512)
+        sock.setblocking(False)
+    except OSError as error:
+        sock.close()
+        reason = error.strerror or str(error)
+        raise OSError(
+            error.errno, f"cannot listen on {uri_host(address)}:{port}: {reason}"
+        ) from None
+    except BaseException:
+        sock.close()
+        raise
+    return [sock]
+
+
+def _literal(host: str) -> tuple[socket.AddressFamily, str] | None:
+    if host[:1] == "[" and host[-1:] == "]":
+        host = host[1:-1]
+    try:
+        socket.inet_pton(socket.AF_INET, host)
+        return socket.AF_INET, host
+    except (OSError, ValueError):
+        pass
+    if ":" in host:
+        try:
+            ipaddress.IPv6Address(host)
+            return socket.AF_INET6, host
+        except ValueError:
+            pass
+    return None

@@ -1,0 +1,261 @@
+"""TCPROS connections on asyncio streams: made, accepted, and handed to a protocol.
+
+Streams carry the handshake. The data phase of a topic then takes the transport over
+with a protocol of its own (:func:`take_over`): reading messages one by one through a
+``StreamReader`` costs three to five times as much.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from collections.abc import Awaitable, Callable, Mapping
+from typing import Literal, Protocol
+
+from aioros1.connection import ConnectionInfo
+from aioros1.errors import ClosedError, HandshakeError
+from aioros1.net.hosts import bind_sockets, resolve
+from aioros1.options import Limits
+
+__all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
+
+# Seconds idle, seconds between probes, probes: what roscpp sets on every connection,
+# so that a peer that lost its power is noticed at all.
+_KEEPALIVE = (60, 10, 9)
+
+
+_PIECE = 64 * 1024
+"""Bytes that are read in one go, and so at the most believed to be there."""
+
+
+class Side(Protocol):
+    """One side of a handshake of :mod:`aioros1.wire.handshake`."""
+
+    @property
+    def missing(self) -> int: ...
+
+    def receive_data(self, data: bytes) -> bool: ...
+
+
+class Stream:
+    """A connection in the streams phase: a reader and a writer with what both need."""
+
+    __slots__ = ("peer", "reader", "writer")
+
+    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self.reader = reader
+        self.writer = writer
+        self.peer = _address_text(writer.get_extra_info("peername"))
+        sock = writer.get_extra_info("socket")
+        if sock is not None and sock.family in (socket.AF_INET, socket.AF_INET6):
+            _tune(sock)
+
+    @property
+    def transport(self) -> asyncio.Transport:
+        transport = self.writer.transport
+        assert isinstance(transport, asyncio.Transport)
+        return transport
+
+    async def receive_header(self, side: Side, *, timeout: float) -> None:
+        """Read until ``side`` has its header, and not a byte beyond it.
+
+        Raises :class:`~aioros1.HandshakeError` and :class:`TimeoutError`.
+        """
+        try:
+            async with asyncio.timeout(timeout):
+                while True:
+                    data = await self.reader.read(side.missing)
+                    if side.receive_data(data):
+                        return
+        except TimeoutError:
+            raise TimeoutError(
+                f"{self.peer} sent no whole connection header in {timeout} s"
+            ) from None
+        except ConnectionError as error:
+            raise HandshakeError(self.peer, f"connection lost in the handshake: {error}") from error
+
+    async def read_exactly(self, count: int, *, patience: float | None) -> bytes:
+        """``count`` bytes; ``patience`` is how many seconds may pass without any.
+
+        The memory used grows with the bytes that came. Raises
+        :class:`asyncio.IncompleteReadError` when the other side closes,
+        :class:`TimeoutError`, and :class:`OSError` when the connection is lost.
+        """
+        if count <= _PIECE:
+            async with asyncio.timeout(patience):
+                return await self.reader.readexactly(count)
+        pieces: list[bytes] = []
+        missing = count
+        while missing:
+            async with asyncio.timeout(patience):
+                piece = await self.reader.read(min(missing, _PIECE))
+            if not piece:
+                raise asyncio.IncompleteReadError(b"".join(pieces), count)
+            pieces.append(piece)
+            missing -= len(piece)
+        return b"".join(pieces)
+
+    async def write(self, data: bytes, *, stall: float) -> None:
+        """Write, and wait until the other side has taken enough of it.
+
+        Raises :class:`TimeoutError` when it takes nothing for ``stall`` seconds.
+        """
+        self.writer.write(data)
+        transport = self.writer.transport
+        while left := transport.get_write_buffer_size():
+            try:
+                async with asyncio.timeout(stall):
+                    await self.writer.drain()
+                    return
+            except TimeoutError:
+                if transport.get_write_buffer_size() >= left:
+                    raise TimeoutError(f"{self.peer} took nothing for {stall} s") from None
+
+    def stop_reading(self) -> None:
+        """Make whoever reads see the end, as if the other side had closed."""
+        self.transport.pause_reading()
+        self.reader.feed_eof()
+
+    async def close(self) -> None:
+        """Send what was written, then close."""
+        self.writer.close()
+        try:
+            await self.writer.wait_closed()
+        except OSError:
+            pass  # lost before it was closed: closed all the same
+
+    def abort(self) -> None:
+        """Close at once; what was written may be lost."""
+        self.writer.transport.abort()
+
+
+async def connect(host: str, port: int, *, timeout: float) -> Stream:
+    """A connection to ``host``; each of its addresses is tried in turn.
+
+    Raises :class:`ConnectionError` or :class:`TimeoutError`, both naming host and port.
+    """
+    try:
+        async with asyncio.timeout(timeout):
+            failure: OSError | None = None
+            for family, address in await resolve(host, port):
+                try:
+                    reader, writer = await asyncio.open_connection(address, port, family=family)
+                except OSError as error:
+                    failure = error
+                else:
+                    return Stream(reader, writer)
+    except TimeoutError:
+        raise TimeoutError(f"no connection to {host}:{port} within {timeout} s") from None
+    except OSError as error:  # the name could not be resolved
+        failure = error
+    raise ConnectionError(f"cannot connect to {host}:{port}: {failure}") from failure
+
+
+async def take_over(stream: Stream, protocol: asyncio.BaseProtocol) -> bytes:
+    """Give the stream's transport to ``protocol`` and return what the reader still holds.
+
+    Nothing is lost between the two: no other code runs inside this function, because
+    reading what a reader at its end holds does not wait.
+    """
+    transport = stream.transport
+    transport.pause_reading()
+    transport.set_protocol(protocol)
+    stream.reader.feed_eof()
+    rest = await stream.reader.read()
+    protocol.connection_made(transport)
+    transport.resume_reading()
+    return rest
+
+
+def connection_info(
+    stream: Stream,
+    name: str,
+    direction: Literal["i", "o", "b"],
+    peer: str,
+    header: Mapping[str, str],
+) -> ConnectionInfo:
+    """What there is to know of a connection whose handshake is done."""
+    writer = stream.writer
+    sock = writer.get_extra_info("socket")
+    return ConnectionInfo(
+        name=name,
+        direction=direction,
+        peer=peer,
+        local=(writer.get_extra_info("sockname") or ("", 0))[:2],
+        remote=(writer.get_extra_info("peername") or ("", 0))[:2],
+        fileno=sock.fileno() if sock is not None else -1,
+        header=header,
+    )
+
+
+class Listener:
+    """The TCPROS port of a node.
+
+    ``spawn(function, stream, name=...)`` must run ``function(stream)`` in a task of the
+    caller's, so that every connection is owned. A connection beyond
+    ``limits.connections`` is closed at once: to a peer this looks as a full backlog does.
+    """
+
+    def __init__(
+        self,
+        serve: Callable[[Stream], Awaitable[None]],
+        spawn: Callable[..., object],
+        *,
+        limits: Limits,
+    ) -> None:
+        self._serve = serve
+        self._spawn = spawn
+        self._limits = limits
+        self._server: asyncio.Server | None = None
+        self._open = 0
+        self.refused = 0
+        """Connections closed because there were too many."""
+        self.port = 0
+
+    async def start(self, host: str, port: int) -> None:
+        """Listen. Raises :class:`OSError` when the address is taken or not ours."""
+        sockets = bind_sockets(host, port)
+        self.port = sockets[0].getsockname()[1]
+        # One socket: bind_sockets gives several only for a name with several addresses.
+        self._server = await asyncio.start_server(self._accepted, sock=sockets[0])
+
+    def _accepted(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        if self._open >= self._limits.connections:
+            self.refused += 1
+            writer.transport.abort()
+            return
+        self._open += 1
+        stream = Stream(reader, writer)
+        try:
+            self._spawn(self._run, stream, name=f"tcpros {stream.peer}")
+        except ClosedError:
+            stream.abort()
+
+    async def _run(self, stream: Stream) -> None:
+        try:
+            await self._serve(stream)
+        finally:
+            self._open -= 1
+
+    def close(self) -> None:
+        """Stop listening; connections that are open stay so."""
+        if self._server is not None:
+            self._server.close()
+            self._server = None
+
+
+def _tune(sock: socket.socket) -> None:
+    sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+    names = ("TCP_KEEPIDLE", "TCP_KEEPINTVL", "TCP_KEEPCNT")
+    for name, value in zip(names, _KEEPALIVE, strict=True):
+        option = getattr(socket, name, None)  # not every system has all three
+        if option is not None:
+            sock.setsockopt(socket.IPPROTO_TCP, option, value)
+
+
+def _address_text(address: object) -> str:
+    if isinstance(address, tuple) and len(address) >= 2:
+        host, port = address[0], address[1]
+        return f"[{host}]:{port}" if ":" in str(host) else f"{host}:{port}"
+    return str(address)

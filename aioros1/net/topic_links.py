@@ -1,0 +1,293 @@
+"""The data phase of topics: the protocols that carry messages once hands are shaken.
+
+:class:`IncomingLink` is one connection of a subscriber, :class:`OutgoingLink` one of
+a publisher. Neither knows what a message is.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+from aioros1.connection import ConnectionInfo
+from aioros1.net.tcpros import Stream
+from aioros1.wire.frames import READ, FrameError, FrameReceiver
+from aioros1.wire.handshake import TopicOffer
+
+__all__ = ["JOIN", "Batch", "Frame", "IncomingLink", "LinkOwner", "OutgoingLink", "Received"]
+
+Frame = bytes | Sequence[bytes | memoryview]
+"""A message with its length prefix: in one piece or, if large, in several."""
+
+JOIN = 64 * 1024
+"""Bytes joined into one write. More makes the copy dearer than the system call it saves."""
+
+# One for all: it is only in use between get_buffer and buffer_updated, and nothing
+# else runs in between. Made when the first link needs it.
+_scratch: memoryview | None = None
+
+
+class Batch:
+    """Data that holds whole frames, and what they have in common."""
+
+    __slots__ = ("data", "link", "received")
+
+    def __init__(self, data: bytes | memoryview, link: IncomingLink, received: int) -> None:
+        self.data = data
+        self.link = link
+        self.received = received  # nanoseconds, by the node's clock
+
+
+Received = tuple[Batch, int, int]
+"""A frame that came in: the batch, and where in its data the frame starts and stops."""
+
+
+class IncomingLink(asyncio.BufferedProtocol):
+    """One connection to a publisher.
+
+    ``deliver(frames)`` is called with every batch of complete frames. It may call
+    :meth:`pause`, and then has to call :meth:`resume` as often: while anyone wants
+    the link paused, its socket is not read, and TCP carries the pressure back.
+    """
+
+    def __init__(
+        self,
+        stream: Stream,
+        info: ConnectionInfo,
+        offer: TopicOffer,
+        deliver: Callable[[list[Received]], None],
+        on_closed: Callable[[], None],
+        clock: Callable[[], int],
+        *,
+        max_bytes: int,
+    ) -> None:
+        global _scratch
+        if _scratch is None:
+            _scratch = memoryview(bytearray(READ))
+        self.info = info
+        self.offer = offer
+        """What the publisher says it publishes."""
+        self.is_closed = False
+        self.latched: Received | None = None
+        """The last message, if the publisher latches: for subscribers that come later."""
+        self.failure: str | None = None
+        """Why we closed the connection, if we did."""
+        self._deliver = deliver
+        self._on_closed = on_closed
+        self._clock = clock
+        self._stream = stream  # a StreamWriter that is collected closes its transport
+        self._transport: asyncio.Transport | None = None
+        self._receiver = FrameReceiver(self, _scratch, max_bytes=max_bytes)
+        self._pauses = 0
+        self._seen = 0
+
+    # the sink of the receiver
+
+    def batch(self, data: bytes | memoryview) -> Batch:
+        return Batch(data, self, self._clock())
+
+    def frames(self, frames: list[Received]) -> None:
+        self._deliver(frames)
+
+    # asyncio.BufferedProtocol
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        assert isinstance(transport, asyncio.Transport)
+        self._transport = transport
+
+    def get_buffer(self, sizehint: int) -> memoryview:
+        return self._receiver.buffer()
+
+    def buffer_updated(self, nbytes: int) -> None:
+        self._guarded(self._receiver.received, nbytes)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        if exc is not None and self.failure is None:
+            self.failure = str(exc)
+        self.is_closed = True
+        self._on_closed()
+
+    # for the subscription
+
+    def feed(self, data: bytes) -> None:
+        """Take bytes that came behind the connection header."""
+        self._guarded(self._receiver.feed, data)
+
+    def pause(self) -> None:
+        self._pauses += 1
+        if self._pauses == 1 and self._transport is not None:
+            self._transport.pause_reading()
+
+    def resume(self) -> None:
+        self._pauses -= 1
+        if not self._pauses and self._transport is not None and not self._transport.is_closing():
+            self._transport.resume_reading()
+
+    def abort(self) -> None:
+        """Close at once."""
+        if self._transport is not None:
+            self._transport.abort()
+
+    def has_progressed(self) -> bool:
+        """Whether bytes came since this was asked last, or none can because of a pause."""
+        seen, self._seen = self._seen, self._receiver.bytes_received
+        return self._pauses > 0 or seen != self._seen
+
+    def _guarded(self, take: Callable[[Any], None], argument: object) -> None:
+        try:
+            take(argument)
+        except FrameError as error:
+            self.failure = str(error)
+            self.abort()
+        stats, receiver = self.info.stats, self._receiver
+        stats.bytes = receiver.bytes_received
+        stats.messages = receiver.frames_received
+
+
+class LinkOwner(Protocol):
+    """The publication an :class:`OutgoingLink` belongs to."""
+
+    def link_paused(self, link: OutgoingLink) -> None:
+        """The link takes no more; messages for it have to wait in its queue."""
+
+    def link_opened(self, link: OutgoingLink) -> None:
+        """The link takes messages again, its queue is empty."""
+
+    def link_closed(self, link: OutgoingLink) -> None:
+        """The connection is gone."""
+
+    def room_made(self) -> None:
+        """A queue got shorter."""
+
+
+class OutgoingLink(asyncio.Protocol):
+    """One connection to a subscriber, and the messages that wait for it.
+
+    As long as the kernel takes what is written the link is *open* and its queue empty;
+    the publication then writes the same blocks to all open links. The transport's own
+    write buffer is kept at zero: as soon as the kernel takes no more, the link stops
+    being open, and messages wait in :attr:`queue`, where they can still be dropped.
+    """
+
+    def __init__(
+        self, stream: Stream, info: ConnectionInfo, owner: LinkOwner, *, stall: float
+    ) -> None:
+        self.info = info
+        self.is_open = True
+        self.is_closed = False
+        self.queue: deque[tuple[Frame, Any]] = deque()
+        """What waits: the frame, and the publisher whose limits apply to it."""
+        self.stalled = False
+        """Whether the connection was cut off because nothing was taken from it."""
+        self._owner = owner
+        self._stall = stall
+        self._closing = False
+        self._stream = stream  # a StreamWriter that is collected closes its transport
+        self._transport: asyncio.Transport | None = None
+        self._watch: asyncio.TimerHandle | None = None
+        self._closed = asyncio.get_running_loop().create_future()
+
+    # asyncio.Protocol
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        assert isinstance(transport, asyncio.Transport)
+        self._transport = transport
+        transport.set_write_buffer_limits(high=0)
+
+    def data_received(self, data: bytes) -> None:
+        """A subscriber has nothing to say; what it says is dropped, as rospy does."""
+
+    def pause_writing(self) -> None:
+        if self.is_open:
+            self.is_open = False
+            self._owner.link_paused(self)
+        self._watch_progress(-1)
+
+    def resume_writing(self) -> None:
+        self._unwatch()
+        while self.queue and not self.unsent():
+            self._write_some()
+        if not self.unsent() and not self.is_closed:
+            self.is_open = True
+            self._owner.link_opened(self)
+            if self._closing and self._transport is not None:
+                self._transport.close()
+        self._owner.room_made()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self.is_open = False
+        self.is_closed = True
+        self.queue.clear()
+        self._unwatch()
+        if not self._closed.done():
+            self._closed.set_result(None)
+        self._owner.link_closed(self)
+
+    # for the publication
+
+    def write(self, frame: Frame, messages: int) -> None:
+        """Write to an open link; it may not be open any more afterwards."""
+        transport = self._transport
+        if transport is None or transport.is_closing():
+            return
+        stats = self.info.stats
+        if isinstance(frame, bytes):
+            transport.write(frame)
+            stats.bytes += len(frame)
+        else:
+            for part in frame:
+                transport.write(part)
+                stats.bytes += len(part)
+        stats.messages += messages
+
+    def close(self) -> None:
+        """Send what waits, then close. A peer that takes nothing is still cut off."""
+        self._closing = True
+        if self._transport is not None and not self.queue:
+            self._transport.close()
+
+    def abort(self) -> None:
+        if self._transport is not None:
+            self._transport.abort()
+
+    async def wait_closed(self) -> None:
+        # A shield, so that a cancelled wait leaves the future to the next one.
+        await asyncio.shield(self._closed)
+
+    def unsent(self) -> int:
+        """Bytes the kernel has not taken yet, without what is still queued."""
+        return 0 if self._transport is None else self._transport.get_write_buffer_size()
+
+    def _write_some(self) -> None:
+        queue = self.queue
+        frame, _ = queue.popleft()
+        if not isinstance(frame, bytes):
+            self.write(frame, 1)
+            return
+        block = [frame]
+        size = len(frame)
+        while queue and size < JOIN:
+            frame = queue[0][0]
+            if not isinstance(frame, bytes):
+                break
+            queue.popleft()
+            block.append(frame)
+            size += len(frame)
+        self.write(b"".join(block), len(block))
+
+    def _watch_progress(self, unsent: int) -> None:
+        """Cut the peer off when a whole period passes without a byte being taken."""
+        now = self.unsent()
+        if now == unsent:
+            self.stalled = True
+            self.abort()
+            return
+        loop = asyncio.get_running_loop()
+        self._watch = loop.call_later(self._stall, self._watch_progress, now)
+
+    def _unwatch(self) -> None:
+        if self._watch is not None:
+            self._watch.cancel()
+            self._watch = None

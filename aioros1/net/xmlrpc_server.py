@@ -1,0 +1,415 @@
+"""An XML-RPC server: the slave API of a node, and the master.
+
+HTTP is aiohttp's low-level server. Its long-lived connections matter: rospy, rosmaster
+and our own client keep a connection per peer and send request after request over it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import inspect
+import logging
+import zlib
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from aiohttp import web
+
+from aioros1.net.hosts import bind_sockets
+from aioros1.options import Limits
+from aioros1.wire.xmlrpc import (
+    XmlRpcError,
+    XmlRpcFault,
+    decode_call,
+    encode_fault,
+    encode_response,
+)
+
+if TYPE_CHECKING:
+    from aiohttp.typedefs import LooseHeaders
+
+__all__ = ["Method", "Reply", "XmlRpcServer"]
+
+Method = Callable[..., Any]
+"""Takes the parameters of the request; returns the value to answer, a :class:`Reply`, or
+an awaitable of either."""
+
+KEEP_ALIVE = 3600.0
+"""Seconds before an idle connection is closed.
+
+Long, because a client that sends just as we close sees its connection reset and cannot
+know whether the request was obeyed; the servers of ROS 1 never close first. Not endless,
+because of peers that vanish without a word.
+"""
+
+# The codes of faults are those of the "Specification for Fault Code Interoperability".
+FAULT_PARSE = -32700
+FAULT_NO_METHOD = -32601
+FAULT_PARAMS = -32602
+FAULT_APPLICATION = -32500
+
+_LOG = logging.getLogger("aioros1.xmlrpc")
+_PATHS = frozenset({"/", "/RPC2"})
+_YIELD_EVERY = 32
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """An answer with a consequence: ``after`` is called once ``value`` has been sent.
+
+    It is called even if the client has gone meanwhile. It is a plain function.
+    """
+
+    value: Any
+    after: Callable[[], object]
+
+
+class XmlRpcServer:
+    """Serves ``methods`` by name, and ``system.multicall`` over them.
+
+    A method is looked up in the mapping and nowhere else. A request with the wrong number
+    of parameters is answered as the programs of ROS 1 do, with ``[-1, text, 0]``; what
+    a method raises becomes a fault, is logged, and the server goes on.
+    """
+
+    def __init__(
+        self,
+        methods: Mapping[str, Method],
+        *,
+        limits: Limits | None = None,
+        log: logging.Logger | logging.LoggerAdapter[Any] | None = None,
+    ) -> None:
+        self._methods = {name: (method, *_arity(method)) for name, method in methods.items()}
+        self._limits = limits if limits is not None else Limits()
+        self._log = log if log is not None else _LOG
+        self._http: web.Server | None = None
+        self._listeners: list[asyncio.Server] = []
+        self._connections: set[_Connection] = set()
+        self._all_gone: asyncio.Future[None] | None = None
+        self._port = 0
+
+    @property
+    def port(self) -> int:
+        """The TCP port; 0 before the start."""
+        return self._port
+
+    async def start(self, host: str = "0.0.0.0", port: int = 0) -> None:
+        """Listen on the numeric address ``host``; see :func:`.hosts.bind_sockets`.
+
+        Raises :class:`OSError` when the address or the port is not to be had.
+        """
+        if self._http is not None:
+            raise RuntimeError("the server was started before")
+        loop = asyncio.get_running_loop()
+        sockets = bind_sockets(host, port)
+        self._port = int(sockets[0].getsockname()[1])
+        self._http = http = web.Server(self._handle)
+        quiet: Any = _Quiet(self._log)
+
+        def connection() -> _Connection:
+            return _Connection(
+                self._connections,
+                self._limits.xmlrpc_timeout,
+                http,
+                loop=loop,
+                keepalive_timeout=KEEP_ALIVE,
+                lingering_time=1.0,
+                access_log=None,
+                auto_decompress=False,
+                logger=quiet,
+            )
+
+        try:
+            for sock in sockets:
+                self._listeners.append(await loop.create_server(connection, sock=sock, backlog=512))
+        except BaseException:
+            for sock in sockets:
+                sock.close()
+            await self.close()
+            raise
+
+    async def close(self, *, timeout: float = 1.0) -> None:
+        """Stop listening, let requests in progress finish for ``timeout`` seconds, close
+        every connection. Not to be called from a method: it would wait for itself."""
+        listeners, self._listeners = self._listeners, []
+        for listener in listeners:
+            listener.close()
+        http = self._http
+        if http is None:
+            return
+        http.pre_shutdown()
+        await http.shutdown(timeout)
+        for connection in list(self._connections):
+            connection.abort()
+        # A transport tells its protocol of the end in a later turn of the loop.
+        for _ in range(100):
+            if not self._connections:
+                break
+            await asyncio.sleep(0)
+        await asyncio.sleep(0)
+
+    # ------------------------------------------------------------------ one request
+
+    async def _handle(self, request: web.BaseRequest) -> web.StreamResponse:
+        connection = request.protocol
+        assert isinstance(connection, _Connection)
+        connection.request_begins()
+        try:
+            refusal = self._refuse(request)
+            if refusal is not None:
+                return refusal
+            try:
+                async with asyncio.timeout(self._limits.xmlrpc_timeout):
+                    body = await self._read(request)
+            except TimeoutError:
+                return _plain(408, "the request did not arrive in time", close=True)
+            if not isinstance(body, bytes):
+                return body
+            answer, afters = await self._answer(body)
+            return await self._send(request, connection, answer, afters)
+        finally:
+            connection.request_ends()
+
+    def _refuse(self, request: web.BaseRequest) -> web.Response | None:
+        headers = request.headers
+        if request.path not in _PATHS:
+            return _plain(404, "XML-RPC is served at / and /RPC2")
+        if request.method != "POST":
+            return _plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
+        if "Transfer-Encoding" in headers:
+            return None
+        length = headers.get("Content-Length")
+        if length is None:
+            return _plain(411, "a Content-Length is needed", close=True)
+        if int(length) > self._limits.xmlrpc_bytes:
+            return self._too_large()
+        return None
+
+    def _too_large(self) -> web.Response:
+        return _plain(413, f"more than {self._limits.xmlrpc_bytes} bytes", close=True)
+
+    async def _read(self, request: web.BaseRequest) -> bytes | web.Response:
+        """The body, inflated if need be; or the answer that refuses it."""
+        if request.headers.get("Expect", "").lower() == "100-continue":
+            await request.writer.write(b"HTTP/1.1 100 Continue\r\n\r\n")
+            request.writer.output_size = 0
+        coding = request.headers.get("Content-Encoding", "identity").strip().lower()
+        if coding not in ("", "identity", "gzip", "x-gzip"):
+            return _plain(415, f"unknown Content-Encoding: {coding}", close=True)
+        inflate = zlib.decompressobj(wbits=31) if coding.endswith("gzip") else None
+        room = self._limits.xmlrpc_bytes
+        chunks: list[bytes] = []
+        content = request.content
+        while chunk := await content.readany():
+            if inflate is not None:
+                try:
+                    chunk = inflate.decompress(chunk, room + 1)  # bounds a bomb of zeros
+                except zlib.error as error:
+                    return _plain(400, f"not gzip: {error}", close=True)
+            room -= len(chunk)
+            if room < 0:
+                return self._too_large()
+            chunks.append(chunk)
+        if inflate is not None and not inflate.eof:
+            return _plain(400, "the gzip data ends early", close=True)
+        return chunks[0] if len(chunks) == 1 else b"".join(chunks)
+
+    async def _send(
+        self,
+        request: web.BaseRequest,
+        connection: _Connection,
+        answer: bytes,
+        afters: list[Callable[[], object]],
+    ) -> web.StreamResponse:
+        response = web.Response(body=answer, content_type="text/xml")
+        try:
+            # Sent here and not by aiohttp, which would wait for ever for a peer that
+            # asks for megabytes and then reads nothing.
+            async with asyncio.timeout(self._limits.xmlrpc_timeout):
+                await response.prepare(request)
+                await response.write_eof()
+                if afters and (transport := request.transport) is not None:
+                    # Now a drain returns when the kernel has taken every byte.
+                    transport.set_write_buffer_limits(high=0)
+                    await request.writer.drain()
+        except TimeoutError:
+            connection.abort()
+        finally:
+            for after in afters:
+                try:
+                    after()
+                except Exception:
+                    self._log.exception("a consequence of an XML-RPC request failed")
+        return response
+
+    # ------------------------------------------------------------------ one call
+
+    async def _answer(self, body: bytes) -> tuple[bytes, list[Callable[[], object]]]:
+        afters: list[Callable[[], object]] = []
+        try:
+            name, params = decode_call(body, max_depth=self._limits.xmlrpc_depth)
+        except XmlRpcError as error:
+            return encode_fault(FAULT_PARSE, str(error)), afters
+        try:
+            if name == "system.multicall":
+                value = await self._multicall(params, afters)
+            else:
+                value = await self._call(name, params, afters)
+            return encode_response(value), afters
+        except XmlRpcFault as fault:
+            return encode_fault(fault.code, fault.text), afters
+        except (TypeError, ValueError, OverflowError) as error:
+            self._log.error("the result of %s cannot be sent: %s", name, error)
+            return encode_fault(FAULT_APPLICATION, f"{name}: {error}"), afters
+
+    async def _call(
+        self, name: str, params: tuple[Any, ...], afters: list[Callable[[], object]]
+    ) -> Any:
+        """What the method returned; raises :class:`XmlRpcFault` and nothing else."""
+        entry = self._methods.get(name)
+        if entry is None:
+            raise XmlRpcFault(FAULT_NO_METHOD, f'method "{name}" is not supported')
+        method, least, most = entry
+        if not least <= len(params) <= most:
+            if not params:
+                return [-1, "missing required caller_id parameter", 0]
+            return [-1, f"Error: bad call arity: {name} takes {_range(least, most)} parameters", 0]
+        try:
+            value = method(*params)
+            if isinstance(value, Awaitable):
+                value = await value
+        except XmlRpcFault:
+            raise
+        except Exception as error:
+            self._log.exception("XML-RPC method %s failed", name)
+            raise XmlRpcFault(FAULT_APPLICATION, f"{type(error).__name__}: {error}") from error
+        if isinstance(value, Reply):
+            afters.append(value.after)
+            return value.value
+        return value
+
+    async def _multicall(
+        self, params: tuple[Any, ...], afters: list[Callable[[], object]]
+    ) -> list[Any]:
+        """Many calls in one request; each has its own result or fault."""
+        if len(params) != 1 or not isinstance(params[0], list):
+            raise XmlRpcFault(FAULT_PARAMS, "system.multicall takes one array")
+        results: list[Any] = []
+        for count, call in enumerate(params[0], 1):
+            try:
+                results.append([await self._call(*_multicall_entry(call), afters)])
+            except XmlRpcFault as fault:
+                results.append({"faultCode": fault.code, "faultString": fault.text})
+            if count % _YIELD_EVERY == 0:
+                await asyncio.sleep(0)
+        return results
+
+
+def _multicall_entry(call: Any) -> tuple[str, tuple[Any, ...]]:
+    if not isinstance(call, dict):
+        raise XmlRpcFault(FAULT_PARAMS, "an entry of system.multicall is a struct")
+    name, params = call.get("methodName"), call.get("params")
+    if not isinstance(name, str) or not isinstance(params, list):
+        raise XmlRpcFault(FAULT_PARAMS, "an entry of system.multicall has methodName and params")
+    if name == "system.multicall":
+        raise XmlRpcFault(FAULT_PARAMS, "system.multicall inside system.multicall")
+    return name, tuple(params)
+
+
+def _arity(method: Method) -> tuple[int, float]:
+    """The least and the greatest number of positional arguments ``method`` takes."""
+    least, most = 0, 0.0
+    for parameter in inspect.signature(method).parameters.values():
+        if parameter.kind is parameter.VAR_POSITIONAL:
+            most = float("inf")
+        elif parameter.kind in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
+            most += 1
+            least += parameter.default is parameter.empty
+    return least, most
+
+
+def _range(least: int, most: float) -> str:
+    return f"{least}" if least == most else f"{least} to {most:g}"
+
+
+def _plain(
+    status: int, text: str, headers: LooseHeaders | None = None, *, close: bool = False
+) -> web.Response:
+    response = web.Response(status=status, text=text + "\n", headers=headers)
+    if close:
+        response.force_close()
+    return response
+
+
+class _Connection(web.RequestHandler):
+    """aiohttp's connection, with a limit to how long the head of a request may take.
+
+    aiohttp itself waits as long for the rest of a request line as for the next request.
+    """
+
+    __slots__ = ("_alive", "_busy", "_head_timeout", "_head_timer")
+
+    def __init__(
+        self, alive: set[_Connection], head_timeout: float, manager: web.Server, **options: Any
+    ) -> None:
+        super().__init__(manager, **options)
+        self._alive = alive
+        self._busy = False
+        self._head_timeout = head_timeout
+        self._head_timer: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._alive.add(self)
+        super().connection_made(transport)
+
+    def connection_lost(self, exc: BaseException | None) -> None:
+        self._stop_timer()
+        super().connection_lost(exc)
+        self._alive.discard(self)
+
+    def data_received(self, data: bytes) -> None:
+        super().data_received(data)
+        if not self._busy and self._head_timer is None:
+            loop = asyncio.get_running_loop()
+            self._head_timer = loop.call_later(self._head_timeout, self._head_is_late)
+
+    def request_begins(self) -> None:
+        """The head of a request is complete."""
+        self._busy = True
+        self._stop_timer()
+
+    def request_ends(self) -> None:
+        """The request has been answered, or is about to be."""
+        self._busy = False
+
+    def abort(self) -> None:
+        """Close at once; what was not sent yet is lost."""
+        transport = self.transport
+        if isinstance(transport, asyncio.WriteTransport):
+            transport.abort()
+
+    def _head_is_late(self) -> None:
+        self._head_timer = None
+        if isinstance(self.transport, asyncio.WriteTransport):
+            self.transport.write(
+                b"HTTP/1.1 408 Request Timeout\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
+            )
+        self.force_close()
+
+    def _stop_timer(self) -> None:
+        if self._head_timer is not None:
+            self._head_timer.cancel()
+            self._head_timer = None
+
+
+class _Quiet(logging.LoggerAdapter[Any]):
+    """What aiohttp calls an exception is a peer that sent nonsense or went away."""
+
+    def __init__(self, log: logging.Logger | logging.LoggerAdapter[Any]) -> None:
+        super().__init__(log, {})
+
+    def exception(self, msg: object, *args: object, **kwargs: Any) -> None:
+        with contextlib.suppress(Exception):
+            self.debug(msg, *args, **kwargs)

@@ -1,0 +1,736 @@
+"""The node: what a program is in a ROS graph, and where all its roles come from."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import os
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+from urllib.parse import urlsplit
+
+from aioros1 import names
+from aioros1.acceptor import Acceptor
+from aioros1.clock import Clock, Timer
+from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.events import Broadcast, Event, EventStream
+from aioros1.graph import Graph
+from aioros1.heartbeat import Heartbeat
+from aioros1.idl import default_store
+from aioros1.master_proxy import MasterProxy
+from aioros1.net.hosts import bind_address_for, is_loopback, local_address_facing, resolve, uri_host
+from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.net.xmlrpc_server import XmlRpcServer
+from aioros1.options import Limits, NodeOptions, OnError, Timeouts
+from aioros1.param_subscriber import ParamSubscriber
+from aioros1.peer import NodeProxy
+from aioros1.private_params import parse_value
+from aioros1.publisher import Overflow, Publisher, PublisherOptions
+from aioros1.role import NodeStats, Opening, Role
+from aioros1.roles import Roles
+from aioros1.rosout import Rosout, logger_name, serve_logger_levels
+from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
+from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
+from aioros1.slave_api import SlaveApi
+from aioros1.subscriber import Subscriber, SubscriberOptions
+from aioros1.supervisor import Supervisor
+from aioros1.time import Duration, Time
+from aioros1.waiting import deadline
+
+if TYPE_CHECKING:
+    from aioros1.connection import ConnectionInfo
+    from aioros1.idl import MessageStore
+
+__all__ = ["Node"]
+
+DEFAULT_MASTER_URI = "http://localhost:11311"
+_OVERFLOWS = ("drop_oldest", "drop_newest", "block")
+
+
+class Node:
+    """A node of a ROS graph, in the event loop it is started in.
+
+    ::
+
+        async with aioros1.Node("demo") as node:
+            pub = await node.advertise("chatter", String)
+
+    ``name`` is a base name without slashes; with ``anonymous`` it is made unique.
+    ``namespace``, ``master_uri`` and ``host`` default to ``ROS_NAMESPACE``,
+    ``ROS_MASTER_URI`` and ``ROS_HOSTNAME`` or ``ROS_IP``. ``host`` is what others are
+    told to connect to; without any of these it is the address of this machine that
+    faces the master. ``bind`` is the address to listen on: by default loopback if
+    ``host`` is that, else all. ``argv`` gives the words of a command line, which then
+    count more than the environment and less than arguments (``__name:=``, ``__ns:=``,
+    ``a:=b``, ``_param:=value``). ``remap`` maps names as ``a:=b`` does.
+
+    ``store`` resolves type names. ``rosout`` publishes ``node.log`` on ``/rosout`` and
+    ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
+    ``use_sim_time`` None does what the parameter ``/use_sim_time`` says. ``heartbeat``
+    is how often, in seconds, the master is looked after, None for never. ``on_error``
+    says what becomes of an exception in a timer's callback: ``"raise"`` closes the node
+    and raises it where the node is used, ``"log"`` logs it, a function is called with it.
+
+    The constructor does no I/O. Raises :class:`~aioros1.InvalidNameError` and
+    :class:`ValueError`.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        namespace: str | None = None,
+        master_uri: str | None = None,
+        host: str | None = None,
+        bind: str | None = None,
+        xmlrpc_port: int = 0,
+        tcpros_port: int = 0,
+        argv: Sequence[str] | None = None,
+        remap: Mapping[str, str] | None = None,
+        anonymous: bool = False,
+        store: MessageStore | None = None,
+        rosout: bool = True,
+        logger_services: bool = True,
+        use_sim_time: bool | None = None,
+        heartbeat: float | None = 1.0,
+        timeouts: Timeouts = Timeouts(),  # noqa: B008 - frozen
+        limits: Limits = Limits(),  # noqa: B008 - frozen
+        on_error: OnError = "raise",
+    ) -> None:
+        if on_error not in ("raise", "log") and not callable(on_error):
+            raise ValueError(f"on_error must be 'raise', 'log' or callable, got {on_error!r}")
+        if heartbeat is not None and not heartbeat > 0:
+            raise ValueError(f"heartbeat must be positive or None, got {heartbeat!r}")
+        self.options = NodeOptions(
+            namespace=namespace,
+            master_uri=master_uri,
+            host=host,
+            bind=bind,
+            xmlrpc_port=xmlrpc_port,
+            tcpros_port=tcpros_port,
+            argv=None if argv is None else tuple(argv),
+            remap=remap,
+            anonymous=anonymous,
+            rosout=rosout,
+            logger_services=logger_services,
+            use_sim_time=use_sim_time,
+            heartbeat=heartbeat,
+            timeouts=timeouts,
+            limits=limits,
+            on_error=on_error,
+        )
+        self.timeouts = timeouts
+        self.limits = limits
+        self.store = store if store is not None else default_store()
+        arguments = names.parse_args(argv or ())
+        special = arguments.special
+        environ = os.environ
+        self.base_name = names.validate_base_name(special.get("__name", name))
+        if anonymous and "__name" not in special:
+            self.base_name = names.anonymous_name(self.base_name)
+        self.namespace = names.normalize_namespace(
+            _first(namespace, special.get("__ns"), environ.get("ROS_NAMESPACE")) or "/"
+        )
+        self.name = names.qualify(self.namespace, self.base_name)
+        self.master_uri = _http_uri(
+            _first(master_uri, special.get("__master"), environ.get("ROS_MASTER_URI"))
+            or DEFAULT_MASTER_URI
+        )
+        self._host = _first(
+            host,
+            special.get("__hostname"),
+            special.get("__ip"),
+            environ.get("ROS_HOSTNAME"),
+            environ.get("ROS_IP"),
+        )
+        self._remappings = names.resolve_remappings(
+            {**arguments.remappings, **(remap or {})}, self.namespace, self.name
+        )
+        self._private_params = {key: parse_value(text) for key, text in arguments.params.items()}
+        self.log = logging.LoggerAdapter(logging.getLogger(logger_name(self.name)), {})
+        self.graph = Graph(self)
+
+        self._xmlrpc = XmlRpcClient(timeouts=timeouts, limits=limits)
+        self.master = MasterProxy(self._xmlrpc, self.master_uri, self.name)
+        self._server = XmlRpcServer(SlaveApi(self).methods, limits=limits)
+        self._acceptor = Acceptor(self)
+        self._clock = Clock()
+        self._heartbeat = Heartbeat(self)
+        self._events: Broadcast[Event] = Broadcast()
+        self._supervisor = Supervisor(
+            f"node {self.name}", self._begin, self._finish, self._free, self._report
+        )
+        self._state = "new"
+        self._close_timeout = timeouts.close
+        self._failure: Exception | None = None
+        self._user: asyncio.Task[Any] | None = None
+        self._user_cancelled = False
+        self._rosout: Rosout | None = None
+
+        self._roles = Roles(self)
+        self._cached: dict[str, ParamSubscriber] = {}
+
+    # life
+
+    async def start(self) -> Self:
+        """Listen, and greet the master if it is there. ``async with node`` does this.
+
+        The master need not be there: see :meth:`wait_for_master`. Raises
+        :class:`OSError` when an address or port is not to be had, :class:`RuntimeError`
+        when the node was started before.
+        """
+        if self._state != "new":
+            raise RuntimeError(f"node {self.name} was started before; make a new Node")
+        self._state = "starting"
+        await self._supervisor.start()
+        return self
+
+    async def close(self, timeout: float | None = None) -> None:
+        """Close all roles, tell the master, free everything.
+
+        May be called any number of times, also at the same time. Others are given
+        ``timeout`` seconds (``timeouts.close`` by default) for all of it; then what is
+        left is dropped, so that nothing is held afterwards whatever they do.
+        """
+        if self._state == "new":
+            self._state = "closed"
+            return
+        if timeout is not None:
+            self._close_timeout = timeout
+        self._supervisor.end("closed")
+        await self._supervisor.wait()
+
+    def abort(self) -> None:
+        """Drop everything at once, without a word to the master or to peers."""
+        self._close_timeout = 0
+        self._supervisor.end("aborted")
+        self._free()
+
+    async def wait_closed(self) -> str:
+        """Wait until the node is closed, and return why.
+
+        Raises the exception that closed it, if one did (``on_error="raise"``).
+        """
+        await self._supervisor.wait()
+        if self._failure is not None:
+            raise self._failure
+        return self.close_reason or ""
+
+    async def __aenter__(self) -> Self:
+        await self.start()
+        self._user = asyncio.current_task()
+        return self
+
+    async def __aexit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        user, self._user = self._user, None
+        # As asyncio.timeout does: the cancellation was ours and ends here, unless
+        # somebody else has cancelled too.
+        ours = self._user_cancelled and user is not None and user.uncancel() <= 0
+        await self.close()
+        if self._failure is not None and (exc is None or ours):
+            raise self._failure
+
+    # what it is
+
+    @property
+    def state(self) -> str:
+        """``new``, ``starting``, ``open``, ``closing`` or ``closed``."""
+        return self._state
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the node can be used."""
+        return self._state == "open"
+
+    @property
+    def close_reason(self) -> str | None:
+        """Why the node was closed or is closing; None while it is not."""
+        return self._supervisor.reason
+
+    @property
+    def host(self) -> str:
+        """What others are told to connect to."""
+        if self._host is None:
+            raise RuntimeError(f"node {self.name} has no address before it is started")
+        return self._host
+
+    @property
+    def uri(self) -> str:
+        """The URI of the slave API."""
+        return f"http://{uri_host(self.host)}:{self._server.port}/"
+
+    @property
+    def tcpros_address(self) -> tuple[str, int]:
+        """Host and port for topics and services."""
+        return self.host, self._acceptor.port
+
+    @property
+    def tcpros_uri(self) -> str:
+        """The same for services, as the master is told."""
+        return f"rosrpc://{uri_host(self.host)}:{self._acceptor.port}"
+
+    @property
+    def pid(self) -> int:
+        """The process id, which ``getPid`` answers."""
+        return os.getpid()
+
+    @property
+    def run_id(self) -> str | None:
+        """What the master calls this run of the graph; None while it was not reached."""
+        return self._heartbeat.run_id
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        """All TCPROS connections, of topics, services and callers."""
+        return self._roles.connections
+
+    @property
+    def roles(self) -> tuple[Role, ...]:
+        """All open roles, in the order they were opened."""
+        return tuple(self._roles.open)
+
+    @property
+    def stats(self) -> NodeStats:
+        """Sums of what the open roles have counted."""
+        stats = [role.stats for role in self._roles.open]
+        return NodeStats(
+            messages=sum(each.messages for each in stats),
+            bytes=sum(each.bytes for each in stats),
+            dropped=sum(each.dropped for each in stats),
+            errors=sum(each.errors for each in stats),
+            roles=len(stats),
+            connections=len(self.connections),
+            connections_refused=self._acceptor.refused,
+        )
+
+    def resolve_name(self, name: str) -> str:
+        """The full name that ``name``, ``/name`` or ``~name`` means to this node.
+
+        Remappings are applied. Raises :class:`~aioros1.InvalidNameError`.
+        """
+        return names.resolve_name(name, self.namespace, self.name, self._remappings)
+
+    def events(self) -> EventStream[Event]:
+        """Iterate over what happens to the node from now on; ends with the node."""
+        return self._events.subscribe()
+
+    # topics
+
+    def advertise(
+        self,
+        topic: str,
+        type: Any,
+        *,
+        latch: bool = False,
+        queue_size: int = 10,
+        overflow: Overflow = "drop_oldest",
+        tcp_nodelay: bool = False,
+        headers: Mapping[str, str] | None = None,
+    ) -> Opening[Publisher[Any]]:
+        """Open a publisher; see :class:`PublisherOptions` for the options.
+
+        ``type`` is a message class, ours or genpy's, or ``"pkg/Type"``. Several
+        publishers of one topic in one node look like one to the others. Raises
+        :class:`~aioros1.MasterError`, :class:`~aioros1.MessageError`,
+        :class:`~aioros1.InvalidNameError`, :class:`~aioros1.ClosedError`.
+        """
+        options = PublisherOptions(
+            latch=latch,
+            queue_size=_checked_size(queue_size),
+            overflow=_checked_overflow(overflow),
+            tcp_nodelay=tcp_nodelay,
+            headers=headers,
+        )
+        return Opening(self._roles.advertise(topic, type, options))
+
+    def subscribe(
+        self,
+        topic: str,
+        type: Any = "*",
+        *,
+        queue_size: int = 10,
+        overflow: Overflow = "drop_oldest",
+        tcp_nodelay: bool = True,
+        raw: bool = False,
+        views: bool = False,
+    ) -> Opening[Subscriber[Any]]:
+        """Open a subscriber; see :class:`SubscriberOptions` for the options.
+
+        ``type`` is as for :meth:`advertise`, or ``"*"``: messages are then decoded as
+        each publisher defines them. Raises as :meth:`advertise` does.
+        """
+        options = SubscriberOptions(
+            queue_size=_checked_size(queue_size),
+            overflow=_checked_overflow(overflow),
+            tcp_nodelay=tcp_nodelay,
+            raw=raw,
+            views=views,
+        )
+        return Opening(self._roles.subscribe(topic, type, options))
+
+    async def wait_for_message(
+        self, topic: str, type: Any = "*", *, timeout: float | None = None
+    ) -> Any:
+        """The next message of a topic.
+
+        Raises :class:`TimeoutError` after ``timeout`` seconds, and as :meth:`subscribe`.
+        """
+        async with (
+            deadline(timeout, f"no message on {self.resolve_name(topic)}"),
+            self.subscribe(topic, type, queue_size=1, overflow="drop_newest") as subscriber,
+        ):
+            return await subscriber.get()
+
+    # services
+
+    def advertise_service(
+        self,
+        name: str,
+        type: Any,
+        handler: Handler | None = None,
+        *,
+        max_concurrency: int | None = None,
+    ) -> Opening[ServiceProvider[Any, Any]]:
+        """Open a service provider.
+
+        ``handler`` is a function or a coroutine function: it takes the request and
+        returns the response, a dict of its fields, or None for a default response. What
+        it raises is the caller's error. Without a handler, iterate the provider. At most
+        ``max_concurrency`` calls are worked on at a time.
+
+        Raises as :meth:`advertise` does, and :class:`ValueError` when this node provides
+        the service already.
+        """
+        if max_concurrency is not None and max_concurrency < 1:
+            raise ValueError(f"max_concurrency must be at least 1, got {max_concurrency!r}")
+        options = ServiceProviderOptions(max_concurrency=max_concurrency)
+        return Opening(self._roles.advertise_service(name, type, handler, options))
+
+    def service_caller(
+        self,
+        name: str,
+        type: Any,
+        *,
+        persistent: bool = False,
+        timeout: float | None = None,
+        tcp_nodelay: bool = True,
+    ) -> Opening[ServiceCaller[Any, Any]]:
+        """Open a service caller; see :class:`ServiceCallerOptions` for the options.
+
+        Nobody is asked whether the service is there. Raises
+        :class:`~aioros1.MessageError`, :class:`~aioros1.InvalidNameError` and
+        :class:`~aioros1.ClosedError`.
+        """
+        options = ServiceCallerOptions(
+            persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay
+        )
+        return Opening(self._roles.service_caller(name, type, options))
+
+    async def call(
+        self,
+        name: str,
+        type: Any,
+        request: Any = None,
+        /,
+        *,
+        timeout: float | None = None,
+        **fields: Any,
+    ) -> Any:
+        """One call of a service; see :meth:`ServiceCaller.call`."""
+        async with self.service_caller(name, type) as caller:
+            return await caller.call(request, timeout=timeout, **fields)
+
+    async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
+        """Wait until a service is registered and its provider answers.
+
+        Raises :class:`TimeoutError` after ``timeout`` seconds.
+        """
+        # Of whatever type: to be asked whether it is there, a provider need not know.
+        async with self.service_caller(name, "std_srvs/Empty") as caller:
+            await caller.wait_for_service(timeout=timeout)
+
+    # parameters
+
+    def subscribe_param(self, key: str, *, default: Any = ...) -> Opening[ParamSubscriber]:
+        """Follow a parameter and all below it.
+
+        ``default`` is its value while it is not set. Raises
+        :class:`~aioros1.MasterError`, :class:`~aioros1.InvalidNameError` and
+        :class:`~aioros1.ClosedError`.
+        """
+        return Opening(self._roles.subscribe_param(key, default))
+
+    async def get_param(self, key: str, default: Any = ...) -> Any:
+        """The value of a parameter, or a dict of all below it.
+
+        Raises :class:`KeyError` when it is not set and there is no default, and
+        :class:`~aioros1.MasterUnreachable`.
+        """
+        key = self._param_key(key)
+        try:
+            return await self.master.get_param(key)
+        except MasterUnreachable:
+            raise
+        except MasterError:
+            if default is ...:
+                raise KeyError(key) from None
+            return default
+
+    async def set_param(self, key: str, value: Any) -> None:
+        """Set a parameter: bool, int, float, str, list, dict, bytes or datetime.
+
+        Raises :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for what
+        XML-RPC cannot carry, and :class:`~aioros1.MasterError`.
+        """
+        key = self._param_key(key)
+        await self.master.set_param(key, value)
+        # The master tells everybody but the one who did it.
+        self._roles.param_updated(key, value)
+
+    async def has_param(self, key: str) -> bool:
+        """Whether a parameter is set. Raises :class:`~aioros1.MasterError`."""
+        return await self.master.has_param(self._param_key(key))
+
+    async def delete_param(self, key: str) -> None:
+        """Delete a parameter and all below it.
+
+        Raises :class:`KeyError` when it is not set, and
+        :class:`~aioros1.MasterUnreachable`.
+        """
+        key = self._param_key(key)
+        try:
+            await self.master.delete_param(key)
+        except MasterUnreachable:
+            raise
+        except MasterError:
+            raise KeyError(key) from None
+        self._roles.param_updated(key, {})
+
+    async def search_param(self, key: str) -> str | None:
+        """The full key of the nearest parameter of that name: in the node's private
+        namespace, then in its namespace and up to the root. None if there is none.
+
+        Raises :class:`~aioros1.MasterUnreachable`.
+        """
+        try:
+            return await self.master.search_param(key)
+        except MasterUnreachable:
+            raise
+        except MasterError:
+            return None
+
+    async def get_param_names(self) -> list[str]:
+        """The keys of all parameters. Raises :class:`~aioros1.MasterError`."""
+        return await self.master.get_param_names()
+
+    async def get_param_cached(self, key: str, default: Any = ...) -> Any:
+        """As :meth:`get_param`, but follows the parameter from the first time on, so that
+        the master is not asked again."""
+        resolved = self._param_key(key)
+        subscriber = self._cached.get(resolved)
+        if subscriber is None:
+            subscriber = await self.subscribe_param(resolved)
+            # Somebody else may have done the same in the meantime.
+            if resolved in self._cached:
+                await subscriber.close()
+            subscriber = self._cached.setdefault(resolved, subscriber)
+        try:
+            return subscriber.value
+        except KeyError:
+            if default is ...:
+                raise
+            return default
+
+    # the graph
+
+    async def peer(self, name: str) -> NodeProxy:
+        """Another node, by name. Raises :class:`~aioros1.MasterError` if there is none."""
+        name = self.resolve_name(name)
+        return NodeProxy(self._xmlrpc, await self.master.lookup_node(name), self.name, name)
+
+    async def wait_for_master(self, *, timeout: float | None = None) -> None:
+        """Wait until the master answers.
+
+        Raises :class:`TimeoutError` after ``timeout`` seconds.
+        """
+        async with deadline(timeout, f"no master at {self.master_uri}"):
+            while not await self._heartbeat.greet():
+                await asyncio.sleep(0.1)
+
+    # time
+
+    def now(self) -> Time:
+        """The time: of ``/clock`` if that is followed, else the wall clock's."""
+        return Time.from_nsec(self._clock.nanoseconds())
+
+    async def sleep(self, duration: float | Duration) -> None:
+        """Wait for seconds of this node's time. Raises :class:`~aioros1.ClosedError`."""
+        await self._clock.sleep(duration)
+
+    def rate(self, hz: float) -> AsyncIterator[Time]:
+        """Iterate ``hz`` times a second of this node's time; ends with the node."""
+        return self._clock.rate(hz)
+
+    def timer(
+        self,
+        period: float | Duration,
+        callback: Callable[[Time], Any] | Callable[[Time], Awaitable[Any]],
+        *,
+        oneshot: bool = False,
+    ) -> Timer:
+        """Call a function, or a coroutine function, every ``period`` seconds with the time.
+
+        It ends with the node, or by :meth:`Timer.cancel`.
+        """
+        self._check_open()
+        return Timer(self, period, callback, oneshot=oneshot)
+
+    def __repr__(self) -> str:
+        return f"<Node {self.name} at {self.master_uri}, {self._state}>"
+
+    # inside
+
+    def _check_open(self) -> None:
+        if self._state != "open":
+            why = f" ({self.close_reason})" if self.close_reason is not None else ""
+            raise ClosedError(f"node {self.name} is {self._state}, not open{why}")
+
+    def _param_key(self, key: str) -> str:
+        self._check_open()
+        return "/" if key == "/" else self.resolve_name(key)
+
+    def _spawn(
+        self, function: Callable[..., Awaitable[Any]], *args: Any, name: str
+    ) -> asyncio.Task[None]:
+        return self._supervisor.spawn(function, *args, name=name)
+
+    def _emit(self, event: Event) -> None:
+        self._events.publish(event)
+
+    def _report(self, error: BaseException, what: str) -> None:
+        """An error of our own, or one that nobody foresaw."""
+        self.log.error("%s failed: %r", what, error, exc_info=error)
+
+    def _user_error(self, error: Exception, what: str) -> None:
+        """An exception of the user's code, where there is nobody to raise it to."""
+        policy = self.options.on_error
+        if callable(policy):
+            policy(error)
+        elif policy == "log":
+            self.log.error("%s failed", what, exc_info=error)
+        elif self._failure is None:
+            self._failure = error
+            self._supervisor.end(f"{what} failed: {error!r}")
+            if self._user is not None:
+                self._user_cancelled = True
+                self._user.cancel()
+
+    def _shut_down(self, reason: str) -> None:
+        """The master, or anybody else, wants the node to end."""
+        self.log.info("shutdown requested: %s", reason)
+        self._supervisor.end(reason)
+
+    async def _begin(self) -> None:
+        if self._host is None:
+            self._host = await self._facing_host()
+        address = self.options.bind or bind_address_for(self._host)
+        await self._acceptor.start(address, self.options.tcpros_port)
+        await self._server.start(address, self.options.xmlrpc_port)
+        master_is_there = await self._heartbeat.greet()
+        self._state = "open"
+        if self.options.use_sim_time:
+            self._clock.simulate()
+        if master_is_there:
+            await self._introduce()
+        else:
+            self._spawn(self._introduce_later, name=f"{self.name} introduction")
+        if self.options.rosout:
+            self._rosout = Rosout(self)
+            self._spawn(self._rosout.run, name=f"{self.name} rosout")
+        if self.options.logger_services:
+            self._spawn(serve_logger_levels, self, name=f"{self.name} logger services")
+        if self.options.heartbeat is not None:
+            self._spawn(self._heartbeat.run, self.options.heartbeat, name=f"{self.name} heartbeat")
+
+    async def _introduce(self) -> None:
+        """Say, and ask, what can only be once there is a master."""
+        for key, value in self._private_params.items():
+            await self.set_param(f"~{key}", value)
+        simulated = self.options.use_sim_time
+        if simulated is None:
+            simulated = bool(await self.get_param("/use_sim_time", False))
+        if simulated:
+            self._clock.simulate()
+            self._spawn(self._clock.follow, self, name=f"{self.name} clock")
+
+    async def _introduce_later(self) -> None:
+        await self.wait_for_master()
+        await self._introduce()
+
+    async def _facing_host(self) -> str:
+        """The address of this machine that faces the master."""
+        master = urlsplit(self.master_uri).hostname or "localhost"
+        if is_loopback(master):
+            return master
+        with contextlib.suppress(OSError):
+            addresses = await resolve(master)
+            return local_address_facing(addresses[0][1])
+        return "localhost"
+
+    async def _finish(self) -> None:
+        self._state = "closing"
+        self._heartbeat.stop()
+        self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))
+        await self._roles.close(self._close_timeout)
+        if self._rosout is not None:
+            self._rosout.detach()
+        self._acceptor.close()
+        await self._server.close()
+        await self._xmlrpc.close()
+
+    def _free(self) -> None:
+        """Let go of everything, without waiting for anybody."""
+        self._state = "closed"
+        if self._rosout is not None:
+            self._rosout.detach()
+        self._acceptor.close()
+        self._roles.abort()
+        self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))
+        self._events.close()
+
+
+def _first(*values: str | None) -> str | None:
+    """The first that is neither None nor empty."""
+    return next((value for value in values if value), None)
+
+
+def _http_uri(uri: str) -> str:
+    try:
+        parts = urlsplit(uri)
+        valid = parts.scheme == "http" and parts.hostname and (parts.port or 1)
+    except ValueError:
+        valid = False
+    if not valid:
+        raise ValueError(f"master URI {uri!r}: expected http://host:port")
+    return uri
+
+
+def _checked_size(queue_size: int) -> int:
+    if not isinstance(queue_size, int) or queue_size < 1:
+        raise ValueError(
+            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}"
+        )
+    return queue_size
+
+
+def _checked_overflow(overflow: Overflow) -> Overflow:
+    if overflow not in _OVERFLOWS:
+        raise ValueError(f"overflow must be one of {', '.join(_OVERFLOWS)}, got {overflow!r}")
+    return overflow

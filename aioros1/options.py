@@ -1,0 +1,82 @@
+"""The tunable numbers of a node: how long to wait, and how much to accept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+__all__ = ["Limits", "NodeOptions", "OnError", "Timeouts"]
+
+OnError = Literal["raise", "log"] | Callable[[Exception], object]
+"""What becomes of an exception that a user's callback raises where nobody awaits it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Timeouts:
+    """How long a node waits for others, in seconds."""
+
+    connect: float = 5.0
+    """For a TCP connection to a peer to be established."""
+
+    handshake: float = 10.0
+    """For a peer to send its whole connection header."""
+
+    xmlrpc: float = 5.0
+    """For the answer of a master or a node to one XML-RPC request."""
+
+    close: float = 3.0
+    """For everything :meth:`Node.close` has to say to others, in all."""
+
+    stall: float = 30.0
+    """For a peer that takes nothing of what is sent to it, before it is cut off."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limits:
+    """How much a node or a master accepts from others."""
+
+    header_bytes: int = 1 << 20
+    """A connection header. It carries the full message definition, which is over
+    100 kB for the largest types in use."""
+
+    header_fields: int = 256
+    """Fields of a connection header; the programs of ROS 1 send about eight."""
+
+    message_bytes: int = 1_000_000_000
+    """One message or service request; the limit of roscpp."""
+
+    connections: int = 10_000
+    """TCPROS connections accepted at a time."""
+
+    xmlrpc_bytes: int = 64 << 20
+    """The body of an XML-RPC request or answer: robot descriptions and maps travel
+    through the parameter server."""
+
+    xmlrpc_depth: int = 100
+    """Arrays and structs inside one another in an XML-RPC value."""
+
+    xmlrpc_timeout: float = 30.0
+    """Seconds for the whole of one XML-RPC request to arrive."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NodeOptions:
+    """What a node was made with; see :class:`Node` for the meaning of each."""
+
+    namespace: str | None = None
+    master_uri: str | None = None
+    host: str | None = None
+    bind: str | None = None
+    xmlrpc_port: int = 0
+    tcpros_port: int = 0
+    argv: tuple[str, ...] | None = None
+    remap: Mapping[str, str] | None = None
+    anonymous: bool = False
+    rosout: bool = True
+    logger_services: bool = True
+    use_sim_time: bool | None = None
+    heartbeat: float | None = 1.0
+    timeouts: Timeouts = Timeouts()
+    limits: Limits = Limits()
+    on_error: OnError = "raise"

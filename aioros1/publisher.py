@@ -1,0 +1,220 @@
+"""Publishing a topic."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar
+
+from aioros1.fields import message_from
+from aioros1.idl import Message
+from aioros1.net.topic_links import JOIN, Frame
+from aioros1.role import Role
+from aioros1.waiting import deadline
+from aioros1.wire.frames import frame_parts
+
+if TYPE_CHECKING:
+    from aioros1.connection import ConnectionInfo
+    from aioros1.node import Node
+    from aioros1.publication import Publication
+
+__all__ = ["Overflow", "Publisher", "PublisherOptions"]
+
+Overflow = Literal["drop_oldest", "drop_newest", "block"]
+"""What happens to a message when a queue is full."""
+
+M = TypeVar("M", bound=Message)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PublisherOptions:
+    """How a publisher was opened; the defaults are those of :meth:`Node.advertise`."""
+
+    latch: bool = False
+    """Keep the last message, and send it to every subscriber that connects later."""
+
+    queue_size: int = 10
+    """Messages that may wait for one subscriber whose connection takes no more."""
+
+    overflow: Overflow = "drop_oldest"
+    """Which message goes when that queue is full; with ``block`` none does."""
+
+    tcp_nodelay: bool = False
+    """Kept for the record: small messages are never held back, whatever this says."""
+
+    headers: Mapping[str, str] | None = field(default=None)
+    """Additional fields of the connection header that subscribers get."""
+
+
+class Publisher(Role, Generic[M]):
+    """Publishes messages of one type on one topic; made by :meth:`Node.advertise`.
+
+    Every subscriber has a connection of its own. Messages go into the socket as long
+    as that takes them, then into a queue of ``queue_size`` messages for that
+    subscriber; what happens when it is full is said by ``overflow``. One slow
+    subscriber never holds up the others.
+    """
+
+    kind = "publisher"
+
+    def __init__(
+        self,
+        node: Node,
+        publication: Publication,
+        message_class: type[M],
+        options: PublisherOptions,
+    ) -> None:
+        super().__init__(node, publication.name)
+        self.options = options
+        self.message_class = message_class
+        self.latched: Frame | None = None
+        """The encoded message that new subscribers get first, if latching."""
+        self._publication = publication
+        self._seq = 0
+
+    @property
+    def type(self) -> str:
+        return self.message_class._type
+
+    @property
+    def md5sum(self) -> str:
+        return self.message_class._md5sum
+
+    @property
+    def definition(self) -> str:
+        return self.message_class._full_text
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        return self._publication.connections if self._is_open else ()
+
+    @property
+    def subscriber_count(self) -> int:
+        """How many subscribers are connected now."""
+        return self._publication.subscriber_count if self._is_open else 0
+
+    @property
+    def dropped(self) -> int:
+        """Messages dropped so far from full queues, counted once per subscriber."""
+        return self.stats.dropped
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether no other publisher of this node publishes the topic."""
+        return len(self._publication.publishers) == 1
+
+    def message(self, **fields: Any) -> M:
+        """A new message of the topic's type."""
+        return self.message_class(**fields)
+
+    def publish(self, msg: Any = None, /, **fields: Any) -> None:
+        """Publish a message, or one made of ``fields``. Never waits.
+
+        ``msg`` is a message of the topic's type, also one of genpy's, or a dict of its
+        fields. If its type has a header, ``header.seq`` is set in ``msg``.
+
+        Raises :class:`~aioros1.SerializationError` for values that do not fit,
+        :class:`~aioros1.ClosedError`, and with ``overflow="block"``
+        :class:`asyncio.QueueFull` when a subscriber has no room; then nobody got it.
+        """
+        frame = self._encode(msg, fields)
+        if self.options.overflow == "block":
+            self._require_room()
+        self._send(frame)
+
+    def publish_raw(self, buffer: bytes | bytearray | memoryview) -> None:
+        """Publish a message that is serialised already; it is not looked into.
+
+        Raises as :meth:`publish`. ``buffer`` may be changed afterwards.
+        """
+        self._check_open()
+        if self.options.overflow == "block":
+            self._require_room()
+        self._send(frame_parts(buffer, join=JOIN))
+
+    async def send(
+        self, msg: Any = None, /, *, timeout: float | None = None, **fields: Any
+    ) -> None:
+        """Publish as soon as every connected subscriber has room in its queue.
+
+        Nothing is dropped then, whatever ``overflow`` says. It returns at once while
+        there is room, but lets other tasks run from time to time.
+
+        Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds;
+        then, and when it is cancelled, the message was not published.
+        """
+        self._check_open()
+        publication = self._publication
+        if not publication.has_room(self):
+            await self._wait_until(
+                lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
+            )
+        self._send(self._encode(msg, fields))
+        if publication.turn_is_full or not publication.subscriber_count:
+            await asyncio.sleep(0)
+
+    async def drain(self, *, timeout: float | None = None) -> None:
+        """Wait until the operating system has taken all that was published.
+
+        Raises :class:`TimeoutError` after ``timeout`` seconds, and
+        :class:`~aioros1.ClosedError`.
+        """
+        self._check_open()
+        await self._wait_until(
+            lambda: self._publication.is_drained, timeout, "a subscriber did not take all"
+        )
+
+    async def wait_for_subscribers(self, n: int = 1, *, timeout: float | None = None) -> None:
+        """Wait until ``n`` subscribers are connected.
+
+        Raises :class:`TimeoutError` after ``timeout`` seconds, and
+        :class:`~aioros1.ClosedError`.
+        """
+        self._check_open()
+        await self._wait_until(
+            lambda: self.subscriber_count >= n, timeout, f"{n} subscribers did not connect"
+        )
+
+    async def _wait_until(self, predicate: Any, timeout: float | None, what: str) -> None:
+        waiters = self._publication.changed
+        async with deadline(timeout, f"publisher {self.name}: {what}"):
+            while not predicate():
+                await waiters.wait()
+                self._check_open()
+
+    def _encode(self, msg: Any, fields: dict[str, Any]) -> Frame:
+        self._check_open()
+        cls = self.message_class
+        if type(msg) is not cls or fields:
+            msg = message_from(cls, msg, fields)
+        if cls._has_header:
+            self._seq = (self._seq + 1) & 0xFFFFFFFF
+            msg.header.seq = self._seq
+        if cls._has_bulk:
+            return cls._frame_parts(msg)
+        return cls._frame(msg)
+
+    def _send(self, frame: Frame) -> None:
+        size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
+        stats = self.stats
+        stats.messages += 1
+        stats.bytes += size
+        self._publication.bytes_published += size
+        if self.options.latch:
+            self.latched = frame
+        self._publication.send(frame, self)
+
+    def _require_room(self) -> None:
+        if not self._publication.has_room(self):
+            raise asyncio.QueueFull(
+                f"publisher {self.name}: a subscriber has {self.options.queue_size} messages "
+                "waiting; use send() to wait for room"
+            )
+
+    def _abort(self) -> None:
+        super()._abort()
+        self._publication.changed.wake()
+
+    async def _close(self) -> None:
+        await self._node._roles.close_publisher(self, self._publication)

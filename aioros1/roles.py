@@ -1,0 +1,260 @@
+"""The roles of one node: opened, found by name, closed.
+
+Roles of one topic or parameter share what the rest of the graph sees as one: a
+:class:`Publication`, a :class:`Subscription`, a :class:`FollowedParam`. These stand in
+the tables here for as long as a role uses them.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from aioros1.connection import ConnectionInfo
+from aioros1.errors import ClosedError, MasterError, Md5MismatchError
+from aioros1.events import RoleRegistered, RoleUnregistered
+from aioros1.param_subscriber import FollowedParam, ParamSubscriber
+from aioros1.publication import Publication
+from aioros1.publisher import Publisher, PublisherOptions
+from aioros1.role import Role
+from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
+from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
+from aioros1.subscriber import Subscriber, SubscriberOptions
+from aioros1.subscription import Subscription
+
+if TYPE_CHECKING:
+    from aioros1.node import Node
+    from aioros1.registration import Registration
+
+__all__ = ["Roles"]
+
+R = TypeVar("R", bound=Role)
+
+
+class Shared(Protocol):
+    """What roles share: one entry of a table, registered once."""
+
+    name: str
+    registration: Registration
+
+    @property
+    def is_used(self) -> bool: ...
+
+
+S = TypeVar("S", bound=Shared)
+
+
+class Roles:
+    """Everything a node does in the graph."""
+
+    def __init__(self, node: Node) -> None:
+        self.publications: dict[str, Publication] = {}
+        self.subscriptions: dict[str, Subscription] = {}
+        self.providers: dict[str, ServiceProvider[Any, Any]] = {}
+        self.params: dict[str, FollowedParam] = {}
+        self.registrations: dict[Registration, None] = {}  # sets that keep the order
+        self.open: dict[Role, None] = {}
+        self._node = node
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        """All TCPROS connections: those of topics, once each, and those of services."""
+        sources: list[Publication | Subscription | Role] = [
+            *self.publications.values(),
+            *self.subscriptions.values(),
+            *(role for role in self.open if isinstance(role, ServiceCaller | ServiceProvider)),
+        ]
+        return tuple(info for source in sources for info in source.connections)
+
+    # opening
+
+    async def advertise(self, topic: str, type: Any, options: PublisherOptions) -> Publisher[Any]:
+        node = self._node
+        node._check_open()
+        topic = node.resolve_name(topic)
+        message_class = node.store.resolve_msg(type)
+        publication = self.publications.get(topic)
+        if publication is None:
+            publication = self.publications[topic] = Publication(node, topic, message_class)
+        _check_same_type(f"{node.name} publishes {topic}", publication.message_class, message_class)
+        publisher: Publisher[Any] = Publisher(node, publication, message_class, options)
+        # Subscribers may come as soon as the master knows, before we know that it does.
+        publication.publishers.append(publisher)
+        try:
+            await publication.registration.acquire()
+        except BaseException:
+            publication.publishers.remove(publisher)
+            _discard_unused(self.publications, publication)
+            raise
+        return await self._opened(publisher)
+
+    async def subscribe(self, topic: str, type: Any, options: SubscriberOptions) -> Subscriber[Any]:
+        node = self._node
+        node._check_open()
+        topic = node.resolve_name(topic)
+        any_type = type == "*" or getattr(type, "_type", None) == "*"
+        message_class = None if any_type else node.store.resolve_msg(type)
+        subscription = self.subscriptions.get(topic)
+        if subscription is None:
+            subscription = self.subscriptions[topic] = Subscription(node, topic)
+        if message_class is not None:
+            for other in subscription.subscribers:
+                if other.message_class is not None:
+                    _check_same_type(
+                        f"{node.name} subscribes to {topic}", other.message_class, message_class
+                    )
+        subscriber: Subscriber[Any] = Subscriber(node, subscription, message_class, options)
+        subscription.add(subscriber)
+        try:
+            await subscription.registration.acquire()
+        except BaseException:
+            subscription.remove(subscriber)
+            _discard_unused(self.subscriptions, subscription)
+            raise
+        return await self._opened(subscriber)
+
+    async def advertise_service(
+        self, name: str, type: Any, handler: Handler | None, options: ServiceProviderOptions
+    ) -> ServiceProvider[Any, Any]:
+        node = self._node
+        node._check_open()
+        name = node.resolve_name(name)
+        service_class = node.store.resolve_srv(type)
+        if name in self.providers:
+            raise ValueError(f"{node.name} provides service {name} already")
+        provider: ServiceProvider[Any, Any] = ServiceProvider(
+            node, name, service_class, handler, options
+        )
+        self.providers[name] = provider
+        try:
+            await provider.registration.acquire()
+        except BaseException:
+            del self.providers[name]
+            raise
+        return await self._opened(provider)
+
+    async def service_caller(
+        self, name: str, type: Any, options: ServiceCallerOptions
+    ) -> ServiceCaller[Any, Any]:
+        node = self._node
+        node._check_open()
+        service_class = node.store.resolve_srv(type)
+        return await self._opened(
+            ServiceCaller(node, node.resolve_name(name), service_class, options)
+        )
+
+    async def subscribe_param(self, key: str, default: Any) -> ParamSubscriber:
+        node = self._node
+        key = node._param_key(key)
+        followed = self.params.get(key)
+        if followed is None:
+            followed = self.params[key] = FollowedParam(node, key)
+        try:
+            await followed.registration.acquire()
+        except BaseException:
+            _discard_unused(self.params, followed)
+            raise
+        subscriber = ParamSubscriber(node, followed, default)
+        followed.subscribers.append(subscriber)
+        return await self._opened(subscriber)
+
+    async def _opened(self, role: R) -> R:
+        """Hand out a role, unless the node was closed while it was being opened."""
+        self.open[role] = None
+        if not self._node.is_open:
+            await role.close()
+            self._node._check_open()
+        return role
+
+    # closing
+
+    async def close(self, timeout: float) -> None:
+        """Close all, at the same time, within ``timeout`` seconds."""
+        roles = tuple(self.open)
+        closing = asyncio.gather(*(role.close() for role in roles), return_exceptions=True)
+        try:
+            async with asyncio.timeout(timeout):
+                results = await closing
+        except TimeoutError:
+            self._node.log.warning("closed without having told everybody in %s s", timeout)
+            return
+        for role, result in zip(roles, results, strict=True):
+            if isinstance(result, Exception):
+                self._node._report(result, f"closing {role}")
+
+    def abort(self) -> None:
+        """Drop all connections at once, and let everybody who waits for a role know."""
+        for publication in self.publications.values():
+            publication.abort()
+        for subscription in self.subscriptions.values():
+            subscription.close()
+        for role in tuple(self.open):
+            role._abort()
+        self.open.clear()
+
+    async def close_publisher(self, publisher: Publisher[Any], publication: Publication) -> None:
+        publication.publishers.remove(publisher)
+        publication.changed.wake()
+        if not publication.publishers:
+            await publication.close_links(self._node.timeouts.close)
+        await self._release(publication.registration)
+        _discard_unused(self.publications, publication)
+
+    async def close_subscriber(
+        self, subscriber: Subscriber[Any], subscription: Subscription
+    ) -> None:
+        subscription.remove(subscriber)
+        await self._release(subscription.registration)
+        _discard_unused(self.subscriptions, subscription)
+
+    async def close_provider(self, provider: ServiceProvider[Any, Any]) -> None:
+        await self._release(provider.registration)
+        if self.providers.get(provider.name) is provider:
+            del self.providers[provider.name]
+        await provider.close_connections(self._node.timeouts.close)
+
+    async def close_param_subscriber(
+        self, subscriber: ParamSubscriber, followed: FollowedParam
+    ) -> None:
+        followed.subscribers.remove(subscriber)
+        await self._release(followed.registration)
+        _discard_unused(self.params, followed)
+
+    # at the master
+
+    def registered(self, registration: Registration) -> None:
+        self.registrations[registration] = None
+        self._node._emit(RoleRegistered(registration.kind, registration.name))
+
+    def unregistered(self, registration: Registration) -> None:
+        if registration in self.registrations:
+            del self.registrations[registration]
+            self._node._emit(RoleUnregistered(registration.kind, registration.name))
+
+    async def _release(self, registration: Registration) -> None:
+        try:
+            await registration.release()
+        except (MasterError, ClosedError) as error:
+            self._node.log.debug(
+                "%s %s could not be unregistered: %s", registration.kind, registration.name, error
+            )
+
+    def param_updated(self, key: str, value: Any) -> bool:
+        """Pass an update on to those whom it concerns; whether there are any."""
+        concerned = [followed for followed in self.params.values() if followed.concerns(key)]
+        for followed in concerned:
+            followed.update(key, value)
+        return bool(concerned)
+
+
+def _check_same_type(what: str, known: Any, other: Any) -> None:
+    if known._md5sum != other._md5sum:
+        raise Md5MismatchError(
+            f"{what} as {known._type} with md5sum {known._md5sum} already, "
+            f"not as {other._type} with md5sum {other._md5sum}"
+        )
+
+
+def _discard_unused(table: dict[str, S], entry: S) -> None:
+    if not entry.is_used and not entry.registration.users and table.get(entry.name) is entry:
+        del table[entry.name]

@@ -1,0 +1,114 @@
+"""For programs that are one node: started from a shell, ended by a signal."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import signal
+import sys
+from collections.abc import Callable, Coroutine
+from pathlib import Path
+from typing import Any, TypeVar
+
+from aioros1.errors import ClosedError
+from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.node import DEFAULT_MASTER_URI, Node
+from aioros1.waiting import deadline
+
+__all__ = ["run", "wait_for_master"]
+
+T = TypeVar("T")
+
+
+_GRACE = 1.0
+"""Seconds that ``main`` has to return once its node is closed, before it is cancelled."""
+
+
+def run(
+    main: Callable[[Node], Coroutine[Any, Any, T]], name: str | None = None, **node_options: Any
+) -> T | None:
+    """Run ``main(node)`` in a node and an event loop of its own; what it returns.
+
+    ``name`` is the script's by default. The command line of the script is the node's,
+    unless ``argv`` is among the options.
+
+    SIGINT and SIGTERM close the node. Loops over roles and rates end then, and with
+    them, usually, ``main``; if it does not, it is cancelled, and None is returned. A
+    second signal cancels it at once. Only for scripts: this is the one place of the
+    library that touches signals.
+    """
+    if name is None:
+        name = Path(sys.argv[0]).stem or "aioros1"
+    node_options.setdefault("argv", sys.argv[1:])
+    return asyncio.run(_run(main, Node(name, **node_options)))
+
+
+async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T | None:
+    async with node:
+        task = asyncio.create_task(main(node), name="main")
+        signals = _Signals(node, task)
+        try:
+            await asyncio.wait({task})
+        except asyncio.CancelledError:
+            task.cancel()
+            raise
+        finally:
+            signals.release()
+    try:
+        return await task
+    except (asyncio.CancelledError, ClosedError):
+        if signals.received:
+            return None
+        raise
+
+
+class _Signals:
+    """What SIGINT and SIGTERM mean while a script runs."""
+
+    def __init__(self, node: Node, main: asyncio.Task[Any]) -> None:
+        self.received = False
+        self._node = node
+        self._main = main
+        self._loop = asyncio.get_running_loop()
+        self._ending: asyncio.Task[None] | None = None
+        self._numbers: list[signal.Signals] = []
+        for number in (signal.SIGINT, signal.SIGTERM):
+            # Neither on Windows nor in other threads than the main one.
+            with contextlib.suppress(NotImplementedError, ValueError, RuntimeError):
+                self._loop.add_signal_handler(number, self._receive)
+                self._numbers.append(number)
+
+    def release(self) -> None:
+        for number in self._numbers:
+            self._loop.remove_signal_handler(number)
+
+    def _receive(self) -> None:
+        if self.received:
+            self._main.cancel()
+        else:
+            self.received = True
+            self._ending = self._loop.create_task(self._end(), name="end")
+
+    async def _end(self) -> None:
+        await self._node.close()
+        await asyncio.wait({self._main}, timeout=_GRACE)
+        self._main.cancel()
+
+
+async def wait_for_master(uri: str | None = None, *, timeout: float | None = None) -> None:
+    """Wait until a master answers at ``uri`` (``ROS_MASTER_URI`` by default).
+
+    Raises :class:`TimeoutError` after ``timeout`` seconds.
+    """
+    uri = uri or os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER_URI
+    client = XmlRpcClient()
+    try:
+        async with deadline(timeout, f"no master at {uri}"):
+            while True:
+                with contextlib.suppress(OSError):
+                    await client.call(uri, "getPid", "/aioros1")
+                    return
+                await asyncio.sleep(0.1)
+    finally:
+        await client.close()

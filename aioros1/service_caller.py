@@ -1,0 +1,340 @@
+"""Calling a service."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import EllipsisType
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from urllib.parse import urlsplit
+
+from aioros1.errors import (
+    ClosedError,
+    DeserializationError,
+    HandshakeError,
+    MasterError,
+    MasterUnreachable,
+    ServiceError,
+    ServiceNotFound,
+    ServiceUnavailable,
+)
+from aioros1.events import PeerConnected, PeerDisconnected
+from aioros1.fields import message_from
+from aioros1.net.backoff import Backoff
+from aioros1.net.tcpros import Stream, connect, connection_info
+from aioros1.role import Role
+from aioros1.waiting import deadline
+from aioros1.wire.handshake import ServiceClient, ServiceOffer
+from aioros1.wire.service import SUCCESS, ServiceFrameError, frame_length
+
+if TYPE_CHECKING:
+    from aioros1.connection import ConnectionInfo
+    from aioros1.idl import Service
+    from aioros1.node import Node
+
+__all__ = ["PendingCall", "ServiceCaller", "ServiceCallerOptions"]
+
+Q = TypeVar("Q")
+A = TypeVar("A")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ServiceCallerOptions:
+    """How a caller was opened; the defaults are those of :meth:`Node.service_caller`."""
+
+    persistent: bool = False
+    """Keep one connection for all calls, which then happen one after the other.
+    Otherwise every call makes its own, and calls may overlap."""
+
+    timeout: float | None = None
+    """Seconds for a call that does not say; None waits for ever."""
+
+    tcp_nodelay: bool = True
+    """Ask the provider to send small answers at once."""
+
+
+class PendingCall(asyncio.Task[A]):
+    """A call on its way, from :meth:`ServiceCaller.send_request`; await it for the response."""
+
+    sequence: int
+    """Counts the calls of one caller. Local: nothing of it is on the wire."""
+
+
+class ServiceCaller(Role, Generic[Q, A]):
+    """Calls one service; made by :meth:`Node.service_caller`.
+
+    A caller is not registered at the master, and opening one does not ask whether the
+    service is there. A request is sent once: when its connection is lost before the
+    answer came, the call fails, because the provider may have acted on it.
+    """
+
+    kind = "service caller"
+
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        service_class: type[Service],
+        options: ServiceCallerOptions,
+    ) -> None:
+        super().__init__(node, name)
+        self.options = options
+        self.service_class = service_class
+        self.provider_uri: str | None = None
+        """The ``rosrpc://host:port`` that was called last."""
+        self._turn = asyncio.Lock()
+        self._kept: _Connection | None = None
+        self._open: set[_Connection] = set()
+        self._sequence = itertools.count(1)
+
+    @property
+    def type(self) -> str:
+        return self.service_class._type
+
+    @property
+    def md5sum(self) -> str:
+        return self.service_class._md5sum
+
+    @property
+    def definition(self) -> str:
+        return self.service_class._full_text
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        return tuple(connection.info for connection in self._open)
+
+    def request(self, **fields: Any) -> Q:
+        """A new request."""
+        message: Any = self.service_class.Request(**fields)
+        return message
+
+    async def call(
+        self,
+        request: Any = None,
+        /,
+        *,
+        timeout: float | EllipsisType | None = ...,
+        **fields: Any,
+    ) -> A:
+        """Call with a request, a dict of its fields, or its ``fields``; the response.
+
+        ``timeout`` is in seconds, None waits for ever, and without it the caller's own
+        counts. It covers everything: the look-up, the connection, the turn on a
+        persistent connection, and the answer.
+
+        Raises :class:`~aioros1.ServiceError` with the provider's text when it answers
+        that the call failed, :class:`~aioros1.ServiceNotFound` when there is none,
+        :class:`~aioros1.ServiceUnavailable` when it cannot be reached or is lost,
+        :class:`~aioros1.HandshakeError` when it means another type,
+        :class:`~aioros1.SerializationError` for values that do not fit,
+        :class:`TimeoutError` and :class:`~aioros1.ClosedError`. After a timeout and
+        when it is cancelled the connection is closed, so that an answer that comes late
+        is never taken for another call's.
+        """
+        self._check_open()
+        message = message_from(self.service_class.Request, request, fields)
+        frame = self.service_class.Request._frame(message)
+        seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
+        async with deadline(seconds, f"service {self.name}: no answer"):
+            if not self.options.persistent:
+                return await self._call_once(frame)
+            async with self._turn:
+                self._check_open()
+                return await self._call_kept(frame)
+
+    __call__ = call
+
+    def send_request(
+        self,
+        request: Any = None,
+        /,
+        *,
+        timeout: float | EllipsisType | None = ...,
+        **fields: Any,
+    ) -> PendingCall[A]:
+        """Begin a call and return at once; awaiting the result gives what :meth:`call` does.
+
+        Cancelling the result cancels the call.
+        """
+        self._check_open()
+        number = next(self._sequence)
+        call: PendingCall[A] = PendingCall(
+            self.call(request, timeout=timeout, **fields),
+            loop=asyncio.get_running_loop(),
+            name=f"{self._node.name} calls {self.name} ({number})",
+        )
+        call.sequence = number
+        return call
+
+    async def is_available(self) -> bool:
+        """Whether the service is registered and its provider answers for it."""
+        self._check_open()
+        try:
+            connection = await self._connect(probe=True)
+        except (ServiceError, HandshakeError, MasterUnreachable):
+            return False
+        self._drop(connection)
+        return True
+
+    async def wait_for_service(self, *, timeout: float | None = None) -> None:
+        """Wait until :meth:`is_available`.
+
+        Raises :class:`TimeoutError` after ``timeout`` seconds, and
+        :class:`~aioros1.ClosedError`.
+        """
+        # The master tells nobody of new services, so there is nothing but to ask.
+        backoff = Backoff(first=0.02, last=0.5)
+        async with deadline(timeout, f"service {self.name} did not appear"):
+            while not await self.is_available():
+                await asyncio.sleep(backoff.delay())
+
+    # one call
+
+    async def _call_once(self, frame: bytes) -> A:
+        connection = await self._connect()
+        try:
+            return await self._exchange(connection, frame)
+        finally:
+            self._drop(connection)
+
+    async def _call_kept(self, frame: bytes) -> A:
+        connection = self._kept
+        if connection is not None and connection.is_dead:
+            self._drop(connection)
+            connection = None
+        if connection is None:
+            connection = self._kept = await self._connect()
+        try:
+            return await self._exchange(connection, frame)
+        except ServiceError as error:
+            if isinstance(error, ServiceUnavailable):
+                self._drop(connection)
+            raise
+        except BaseException:
+            self._drop(connection)
+            raise
+
+    async def _exchange(self, connection: _Connection, frame: bytes) -> A:
+        stats, stream = connection.info.stats, connection.stream
+        try:
+            await stream.write(frame, stall=self._node.timeouts.stall)
+            ok = await stream.read_exactly(1, patience=None)
+            prefix = await stream.read_exactly(4, patience=self._node.timeouts.stall)
+            length = frame_length(prefix, self._node.limits.message_bytes)
+            body = await stream.read_exactly(length, patience=self._node.timeouts.stall)
+        except asyncio.IncompleteReadError as error:
+            raise self._lost("the provider closed the connection before it answered") from error
+        except (OSError, ServiceFrameError, TimeoutError) as error:
+            raise self._lost(str(error) or type(error).__name__) from error
+        finally:
+            stats.messages += 1
+            stats.bytes += len(frame)
+            self.stats.messages += 1
+            self.stats.bytes += len(frame)
+        stats.bytes += length + 5
+        if ok != SUCCESS:
+            self.stats.errors += 1
+            raise ServiceError(body.decode("utf-8", "surrogateescape"))
+        try:
+            response: A = self.service_class.Response._decode(body, 0, length)
+        except DeserializationError as error:
+            self.stats.errors += 1
+            raise self._lost(f"the provider's answer cannot be read: {error}") from error
+        return response
+
+    def _lost(self, why: str) -> ServiceUnavailable | ClosedError:
+        if not self._is_open:
+            return self._closed_error()
+        return ServiceUnavailable(f"service {self.name} at {self.provider_uri}: {why}")
+
+    # connections
+
+    async def _connect(self, *, probe: bool = False) -> _Connection:
+        node = self._node
+        uri = await self._look_up()
+        self.provider_uri = uri
+        try:
+            parts = urlsplit(uri)
+            host, port = parts.hostname, parts.port
+        except ValueError:
+            host = port = None
+        if parts.scheme != "rosrpc" or not host or not port:
+            raise ServiceUnavailable(
+                f"service {self.name}: the master gives {uri!r}, expected rosrpc://host:port"
+            )
+        try:
+            stream = await connect(host, port, timeout=node.timeouts.connect)
+        except (OSError, TimeoutError) as error:
+            raise ServiceUnavailable(f"service {self.name}: {error}") from error
+        try:
+            # A probe asks whether the service is there, of whatever type; and so does
+            # rosservice.
+            md5sum = "*" if probe else self.md5sum
+            client = ServiceClient(
+                f"{self.name} at {stream.peer}",
+                node.name,
+                ServiceOffer(self.name, self.type, md5sum),
+                persistent=self.options.persistent and not probe,
+                probe=probe,
+                tcp_nodelay=self.options.tcp_nodelay,
+                max_bytes=node.limits.header_bytes,
+                max_fields=node.limits.header_fields,
+            )
+            stream.writer.write(client.data_to_send())
+            try:
+                await stream.receive_header(client, timeout=node.timeouts.handshake)
+            except TimeoutError as error:
+                raise ServiceUnavailable(f"service {self.name}: {error}") from error
+            self._check_open()
+        except BaseException:
+            stream.abort()
+            raise
+        return self._opened(stream, client.header)
+
+    def _opened(self, stream: Stream, header: Mapping[str, str]) -> _Connection:
+        peer = header.get("callerid", stream.peer)
+        info = connection_info(stream, self.name, "b", peer, header)
+        connection = _Connection(stream, info)
+        self._open.add(connection)
+        self._node._emit(PeerConnected("service caller", self.name, info))
+        return connection
+
+    def _drop(self, connection: _Connection) -> None:
+        connection.stream.abort()
+        if connection is self._kept:
+            self._kept = None
+        if connection in self._open:
+            self._open.discard(connection)
+            self._node._emit(PeerDisconnected("service caller", self.name, connection.info))
+
+    async def _look_up(self) -> str:
+        try:
+            return await self._node.master.lookup_service(self.name)
+        except MasterUnreachable:
+            raise
+        except MasterError as error:
+            raise ServiceNotFound(f"service {self.name}: no provider: {error.status}") from error
+
+    def _abort(self) -> None:
+        super()._abort()
+        for connection in tuple(self._open):
+            self._drop(connection)
+
+    async def _close(self) -> None:
+        for connection in tuple(self._open):
+            self._drop(connection)
+
+
+class _Connection:
+    __slots__ = ("info", "stream")
+
+    def __init__(self, stream: Stream, info: ConnectionInfo) -> None:
+        self.stream = stream
+        self.info = info
+
+    @property
+    def is_dead(self) -> bool:
+        """Whether the provider has closed its end."""
+        return self.stream.reader.at_eof() or self.stream.writer.is_closing()

@@ -1,0 +1,305 @@
+"""Providing a service."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import inspect
+from collections import deque
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+
+from aioros1.errors import (
+    DeserializationError,
+    SerializationError,
+    ServiceError,
+)
+from aioros1.events import PeerConnected, PeerDisconnected
+from aioros1.fields import message_from
+from aioros1.net.tcpros import Stream, connection_info
+from aioros1.registration import Registration
+from aioros1.role import Role
+from aioros1.waiting import Waiters
+from aioros1.wire.handshake import Server, ServiceOffer
+from aioros1.wire.service import SUCCESS, ServiceFrameError, encode_failure, frame_length
+
+if TYPE_CHECKING:
+    from aioros1.connection import ConnectionInfo
+    from aioros1.idl import Message, Service
+    from aioros1.node import Node
+
+__all__ = ["ServiceCall", "ServiceProvider", "ServiceProviderOptions"]
+
+Q = TypeVar("Q")
+A = TypeVar("A")
+
+Handler = Callable[[Any], Any] | Callable[[Any], Awaitable[Any]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ServiceProviderOptions:
+    """How a provider was opened; the defaults are those of :meth:`Node.advertise_service`."""
+
+    max_concurrency: int | None = None
+    """Calls that are worked on at a time; further ones wait, in the order they came."""
+
+
+class ServiceCall(Generic[Q, A]):
+    """A call that waits for its answer; an item of ``async for call in provider``."""
+
+    __slots__ = ("_answer", "header", "request", "response_class")
+
+    def __init__(
+        self, request: Q, header: Mapping[str, str], response_class: type[Message]
+    ) -> None:
+        self.request = request
+        self.header = header
+        """The caller's connection header; ``header["callerid"]`` is its name."""
+        self.response_class = response_class
+        self._answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+
+    @property
+    def caller_id(self) -> str:
+        """The name of the calling node."""
+        return self.header["callerid"]
+
+    async def reply(self, response: Any = None, /, **fields: Any) -> None:
+        """Answer with a response, a dict of its fields, or its ``fields``.
+
+        Raises :class:`~aioros1.SerializationError` for values that do not fit; the call
+        then still waits. A call whose caller is gone is answered like any other.
+        """
+        message = message_from(self.response_class, response, fields)
+        self._settle(self.response_class._frame(message))
+
+    async def fail(self, text: str) -> None:
+        """Answer that the call has failed; the caller gets ``text``."""
+        self._settle(ServiceError(text))
+
+    def _settle(self, answer: object) -> None:
+        if self._answer.done():
+            raise RuntimeError("the call is answered already")
+        self._answer.set_result(answer)
+
+
+class ServiceProvider(Role, Generic[Q, A]):
+    """Answers calls of one service; made by :meth:`Node.advertise_service`.
+
+    With a handler, that is called with each request. Without one, the provider is
+    iterated, and every :class:`ServiceCall` it gives is answered whenever its time has
+    come, in any order.
+    """
+
+    kind = "service"
+
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        service_class: type[Service],
+        handler: Handler | None,
+        options: ServiceProviderOptions,
+    ) -> None:
+        super().__init__(node, name)
+        self.options = options
+        self.service_class = service_class
+        self.registration = Registration("service", name, self._register, self._unregister)
+        self._handler = handler
+        self._calls: deque[ServiceCall[Q, A]] = deque()
+        self._unanswered: set[ServiceCall[Q, A]] = set()
+        self._arrived = Waiters()
+        self._served = Waiters()
+        self._connections: dict[Stream, ConnectionInfo] = {}
+        self._slots = (
+            contextlib.nullcontext()
+            if options.max_concurrency is None
+            else asyncio.Semaphore(options.max_concurrency)
+        )
+        self.bytes_received = 0
+        self.bytes_sent = 0
+
+    @property
+    def type(self) -> str:
+        return self.service_class._type
+
+    @property
+    def md5sum(self) -> str:
+        return self.service_class._md5sum
+
+    @property
+    def definition(self) -> str:
+        return self.service_class._full_text
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        return tuple(self._connections.values())
+
+    @property
+    def uri(self) -> str:
+        """The ``rosrpc://host:port`` that callers are given by the master."""
+        return self._node.tcpros_uri
+
+    def offer(self) -> ServiceOffer:
+        """What a caller is told when it connects."""
+        return ServiceOffer(self.name, self.type, self.md5sum)
+
+    # without a handler
+
+    def __aiter__(self) -> Self:
+        if self._handler is not None:
+            raise TypeError(f"service {self.name} has a handler, which takes all calls")
+        return self
+
+    async def __anext__(self) -> ServiceCall[Q, A]:
+        while not self._calls:
+            if not self._is_open:
+                raise StopAsyncIteration
+            await self._arrived.wait()
+        return self._calls.popleft()
+
+    # connections
+
+    async def serve(self, stream: Stream, server: Server) -> None:
+        """Answer the calls that come over one connection, whose header is ``server``'s."""
+        header = server.accept_service(self._node.name, self.offer())
+        await stream.write(header, stall=self._node.timeouts.stall)
+        if server.probe:
+            return
+        info = connection_info(stream, self.name, "b", server.caller_id, server.header)
+        self._connections[stream] = info
+        self._node._emit(PeerConnected("service", self.name, info))
+        reason = ""
+        try:
+            while self._is_open and await self._serve_call(stream, server, info):
+                if not server.persistent:
+                    break
+        except (OSError, TimeoutError) as error:
+            reason = str(error)
+        finally:
+            del self._connections[stream]
+            self._served.wake()
+            self._node._emit(PeerDisconnected("service", self.name, info, reason))
+
+    async def _serve_call(self, stream: Stream, server: Server, info: ConnectionInfo) -> bool:
+        """Answer one call. False when the connection is of no more use."""
+        body = await self._read_request(stream, server)
+        if body is None:
+            return False
+        info.stats.messages += 1
+        info.stats.bytes += len(body) + 4
+        self.bytes_received += len(body) + 4
+        readable = True
+        try:
+            request = self.service_class.Request._decode(body, 0, len(body))
+        except DeserializationError as error:
+            # The length said where it ends, but a caller that sends such requests and
+            # one that lost its place look the same.
+            answer = encode_failure(f"bad request: {error}")
+            readable = False
+        else:
+            answer = await self._answer(request, server.header)
+        self.stats.messages += 1
+        self.stats.bytes += len(body) + 4
+        self.bytes_sent += len(answer)
+        if answer[0] == 0:
+            self.stats.errors += 1
+        await stream.write(answer, stall=self._node.timeouts.stall)
+        return readable
+
+    async def _read_request(self, stream: Stream, server: Server) -> bytes | None:
+        """The next request; None when no further one can be read."""
+        node = self._node
+        # A persistent connection may be idle for days. A caller that connected for one
+        # call and does not make it is as stuck as one that stops within it.
+        patience = None if server.persistent else node.timeouts.handshake
+        try:
+            prefix = await stream.read_exactly(4, patience=patience)
+            length = frame_length(prefix, node.limits.message_bytes)
+            return await stream.read_exactly(length, patience=node.timeouts.handshake)
+        except asyncio.IncompleteReadError:
+            return None
+        except ServiceFrameError as error:
+            why = str(error)
+        except TimeoutError:
+            why = f"no whole request came in {node.timeouts.handshake} s"
+        await stream.write(encode_failure(f"bad request: {why}"), stall=node.timeouts.stall)
+        return None
+
+    async def _answer(self, request: Any, header: Mapping[str, str]) -> bytes:
+        response_class = self.service_class.Response
+        async with self._slots:
+            try:
+                if self._handler is None:
+                    frame = await self._deferred(request, header)
+                else:
+                    result = self._handler(request)
+                    if inspect.isawaitable(result):
+                        result = await result
+                    frame = response_class._frame(message_from(response_class, result, {}))
+            except ServiceError as error:
+                return encode_failure(error.text)
+            except SerializationError as error:
+                self._node.log.exception("service %s: bad response", self.name)
+                return encode_failure(f"the service made a bad response: {error}")
+            except Exception as error:  # whatever the handler raises is for the caller
+                self._node.log.exception("service %s: the handler failed", self.name)
+                return encode_failure(str(error) or type(error).__name__)
+        return SUCCESS + frame
+
+    async def _deferred(self, request: Any, header: Mapping[str, str]) -> bytes:
+        if not self._is_open:
+            raise ServiceError(f"service {self.name} is shut down")
+        call: ServiceCall[Q, A] = ServiceCall(request, header, self.service_class.Response)
+        self._calls.append(call)
+        self._unanswered.add(call)
+        self._arrived.wake()
+        try:
+            answer = await call._answer
+        finally:
+            self._unanswered.discard(call)
+        if isinstance(answer, ServiceError):
+            raise answer
+        return bytes(answer)
+
+    # at the master
+
+    async def _register(self) -> None:
+        node = self._node
+        await node.master.register_service(self.name, self.uri, node.uri)
+        node._roles.registered(self.registration)
+
+    async def _unregister(self) -> None:
+        try:
+            await self._node.master.unregister_service(self.name, self.uri)
+        finally:
+            self._node._roles.unregistered(self.registration)
+
+    def _abort(self) -> None:
+        super()._abort()
+        self._arrived.wake()
+        for stream in self._connections:
+            stream.abort()
+
+    async def _close(self) -> None:
+        """Let calls that are being worked on be answered, and no further ones begin."""
+        self._calls.clear()
+        self._arrived.wake()
+        for call in self._unanswered:
+            if not call._answer.done():
+                call._settle(ServiceError(f"service {self.name} is shut down"))
+        await self._node._roles.close_provider(self)
+
+    async def close_connections(self, timeout: float) -> None:
+        """Close connections as they become idle, and after ``timeout`` seconds the rest."""
+        for stream in self._connections:
+            stream.stop_reading()
+        try:
+            async with asyncio.timeout(timeout):
+                while self._connections:
+                    await self._served.wait()
+        except TimeoutError:
+            pass
+        finally:
+            for stream in self._connections:
+                stream.abort()

@@ -1,0 +1,276 @@
+"""A topic that a node receives: a connection to each of its publishers.
+
+The subscribers of one topic in one node share a :class:`Subscription`, and with it
+one connection per publisher. Each publisher is followed by a task of its own, so one
+that hangs delays nobody else: it asks the publisher how to connect, connects, and
+tries again, with growing delays, for as long as the master lists that publisher.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from aioros1.connection import ConnectionInfo
+from aioros1.errors import HandshakeError, PeerError
+from aioros1.events import PeerConnected, PeerDisconnected
+from aioros1.net.backoff import Backoff
+from aioros1.net.tcpros import Stream, connect, connection_info, take_over
+from aioros1.net.topic_links import IncomingLink, Received
+from aioros1.peer import NodeProxy
+from aioros1.registration import Registration
+from aioros1.waiting import Waiters
+from aioros1.wire.handshake import TopicClient, TopicOffer
+
+if TYPE_CHECKING:
+    from aioros1.node import Node
+    from aioros1.subscriber import Subscriber
+
+__all__ = ["Subscription"]
+
+_GRACE = 1.0
+"""Seconds without a byte, after which a connection to a publisher that has left the
+master's list is closed. A publisher that ends closes its connections itself, and what
+it sent before is still on its way when the master announces that it is gone."""
+
+
+class Subscription:
+    """One subscribed topic of one node."""
+
+    def __init__(self, node: Node, topic: str) -> None:
+        self.name = topic
+        self.subscribers: tuple[Subscriber[Any], ...] = ()
+        self.changed = Waiters()
+        """Woken when a connection comes or goes."""
+        self._node = node
+        self._followers: dict[str, _Follower] = {}
+        self._links: tuple[IncomingLink, ...] = ()
+        self._updates = 0
+        self.registration = Registration("subscriber", topic, self._register, self._unregister)
+
+    @property
+    def type(self) -> str:
+        """What the subscribers agree on: ``*`` if none of them names a type."""
+        return next((sub.type for sub in self.subscribers if sub.type != "*"), "*")
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        return tuple(link.info for link in self._links)
+
+    @property
+    def publisher_count(self) -> int:
+        return len(self._links)
+
+    def wanted(self) -> TopicOffer:
+        """What a publisher is told when we connect."""
+        for sub in self.subscribers:
+            if sub.type != "*":
+                return TopicOffer(self.name, sub.type, sub.md5sum, sub.definition)
+        return TopicOffer(self.name, "*", "*", "")
+
+    @property
+    def is_used(self) -> bool:
+        return bool(self.subscribers)
+
+    # the subscribers
+
+    def add(self, subscriber: Subscriber[Any]) -> None:
+        """One more; it gets what publishers that are connected already have latched."""
+        self.subscribers += (subscriber,)
+        for link in self._links:
+            if link.latched is not None:
+                subscriber._offer([link.latched])
+
+    def remove(self, subscriber: Subscriber[Any]) -> None:
+        """One less; with the last one go the connections."""
+        self.subscribers = tuple(each for each in self.subscribers if each is not subscriber)
+        if not self.subscribers:
+            self.close()
+
+    # the publishers
+
+    def update(self, uris: Iterable[str]) -> None:
+        """Follow exactly these publishers, as the master has announced."""
+        self._updates += 1
+        if not self.subscribers:
+            return
+        # A dict and not a set: the order of the master is kept, doubles are dropped.
+        wanted = dict.fromkeys(uris)
+        for uri in [uri for uri in self._followers if uri not in wanted]:
+            self._followers.pop(uri).leave()
+        for uri in wanted:
+            follower = self._followers.get(uri)
+            if follower is None:
+                follower = self._followers[uri] = _Follower(self, self._node, uri)
+                follower.task = self._node._spawn(
+                    follower.run, name=f"{self._node.name} follows {self.name} of {uri}"
+                )
+            else:
+                follower.retry_now()
+
+    def close(self) -> None:
+        """Drop all publishers at once."""
+        for follower in self._followers.values():
+            follower.cancel()
+        self._followers.clear()
+        self.changed.wake()
+
+    def link_opened(self, link: IncomingLink) -> None:
+        self._links += (link,)
+        self._node._emit(PeerConnected("subscriber", self.name, link.info))
+        self.changed.wake()
+
+    def link_closed(self, link: IncomingLink) -> None:
+        self._links = tuple(other for other in self._links if other is not link)
+        self._node._emit(PeerDisconnected("subscriber", self.name, link.info, link.failure or ""))
+        self.changed.wake()
+
+    def deliver(self, frames: list[Received]) -> None:
+        """Give frames, all of one link, to every subscriber."""
+        link = frames[-1][0].link
+        if link.offer.latching:
+            link.latched = frames[-1]
+        for sub in self.subscribers:
+            sub._offer(frames)
+
+    # at the master
+
+    async def _register(self) -> None:
+        node = self._node
+        updates = self._updates
+        uris = await node.master.register_subscriber(self.name, self.type, node.uri)
+        # An announcement that overtook this answer is newer than it.
+        if updates == self._updates:
+            self.update(uris)
+        node._roles.registered(self.registration)
+
+    async def _unregister(self) -> None:
+        try:
+            await self._node.master.unregister_subscriber(self.name, self._node.uri)
+        finally:
+            self._node._roles.unregistered(self.registration)
+
+
+class _Follower:
+    """Keeps one connection to one publisher."""
+
+    def __init__(self, subscription: Subscription, node: Node, uri: str) -> None:
+        self.task: asyncio.Task[None] | None = None
+        self._subscription = subscription
+        self._node = node
+        self._uri = uri
+        self._link: IncomingLink | None = None
+        self._stir = asyncio.Event()
+        self._leaving = False
+        self._complaint = ""
+
+    def retry_now(self) -> None:
+        """The master has announced the publisher again."""
+        self._stir.set()
+
+    def leave(self) -> None:
+        """The master lists the publisher no more."""
+        self._leaving = True
+        if self._link is None:
+            self.cancel()
+        else:
+            self._stir.set()
+
+    def cancel(self) -> None:
+        if self.task is not None:
+            self.task.cancel()
+
+    async def run(self) -> None:
+        backoff = Backoff()
+        try:
+            while not self._leaving:
+                self._stir.clear()
+                try:
+                    await self._connect_and_receive(backoff)
+                except (HandshakeError, PeerError, OSError, TimeoutError) as error:
+                    self._complain(str(error))
+                if not self._leaving:
+                    await self._stirred(backoff.delay())
+        finally:
+            if self._link is not None:
+                self._link.abort()
+
+    async def _connect_and_receive(self, backoff: Backoff) -> None:
+        node, subscription = self._node, self._subscription
+        host, port = await self._request_topic()
+        stream = await connect(host, port, timeout=node.timeouts.connect)
+        try:
+            client = TopicClient(
+                stream.peer,
+                node.name,
+                subscription.wanted(),
+                max_bytes=node.limits.header_bytes,
+                max_fields=node.limits.header_fields,
+            )
+            stream.writer.write(client.data_to_send())
+            await stream.receive_header(client, timeout=node.timeouts.handshake)
+            link = self._link = await self._open_link(stream, client)
+        except BaseException:
+            stream.abort()
+            raise
+        backoff.reset()
+        self._complaint = ""
+        try:
+            await self._until_closed(link)
+        finally:
+            link.abort()
+            self._link = None
+            subscription.link_closed(link)
+
+    async def _request_topic(self) -> tuple[str, int]:
+        node = self._node
+        peer = NodeProxy(node._xmlrpc, self._uri, node.name)
+        topic = self._subscription.name
+        answer = await peer.request_topic(topic, [["TCPROS"]])
+        match answer:
+            case ["TCPROS", str(host), int(port), *_] if 0 < port < 65536:
+                return host, port
+        raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
+
+    async def _open_link(self, stream: Stream, client: TopicClient) -> IncomingLink:
+        node, subscription = self._node, self._subscription
+        link = IncomingLink(
+            stream,
+            connection_info(stream, subscription.name, "i", self._uri, client.header),
+            client.agreed,
+            subscription.deliver,
+            self._stir.set,
+            node._clock.nanoseconds,
+            max_bytes=node.limits.message_bytes,
+        )
+        rest = await take_over(stream, link)
+        subscription.link_opened(link)
+        if rest:
+            link.feed(rest)
+        return link
+
+    async def _until_closed(self, link: IncomingLink) -> None:
+        """Wait for the end of the connection, or of the publisher's place in the list."""
+        while not link.is_closed and not self._leaving:
+            await self._stirred(None)
+        while not link.is_closed and link.has_progressed():
+            await self._stirred(_GRACE)
+        if link.failure is not None:
+            self._complain(link.failure)
+
+    async def _stirred(self, timeout: float | None) -> None:
+        """Wait until the master or the connection has news, at most ``timeout`` seconds."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(timeout):
+                await self._stir.wait()
+        self._stir.clear()
+
+    def _complain(self, text: str) -> None:
+        """Log what went wrong, once until it is something else or has gone well."""
+        if text != self._complaint:
+            self._complaint = text
+            self._node.log.warning(
+                "subscriber %s: publisher at %s: %s", self._subscription.name, self._uri, text
+            )

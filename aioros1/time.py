@@ -1,0 +1,296 @@
+"""ROS's two time values: a point in time and a signed length of time.
+
+Both are immutable, hashable and exact to the nanosecond. Seconds and nanoseconds are
+whole numbers, as on the wire: a ``time`` is two unsigned 32-bit numbers, a ``duration``
+two signed ones.
+"""
+
+from __future__ import annotations
+
+from time import time_ns
+from typing import Any, ClassVar, Final, TypeVar, overload
+
+__all__ = ["Duration", "Time"]
+
+_SECOND: Final = 1_000_000_000
+_new = object.__new__
+
+_V = TypeVar("_V", bound="_TimeValue")
+
+
+def _float_to_nsec(secs: float) -> int:
+    """Seconds as a float, rounded to the nearest nanosecond."""
+    whole = int(secs)
+    return whole * _SECOND + round((secs - whole) * _SECOND)
+
+
+def _is_number(value: Any) -> bool:
+    """Numbers that are no subclasses of Python's own: NumPy's, fractions."""
+    return hasattr(value, "__float__")
+
+
+class _TimeValue:
+    """What the two have in common.
+
+    The parts sit in slots of other names, behind read-only properties: with that,
+    making one takes two plain stores (the decoder does it inline), where a
+    ``__setattr__`` that refuses would have to be gone around at each store, and a
+    tuple would be iterable, indexable and treated as an argument list by ``%``.
+    """
+
+    __slots__ = ("_nsecs", "_secs")
+    _secs: int
+    _nsecs: int
+    _slot_types: ClassVar[list[str]] = ["int32", "int32"]
+
+    def __init__(self, secs: int | float = 0, nsecs: int = 0) -> None:
+        # Anything with __index__ is a whole number: NumPy's integers too.
+        whole = getattr(secs, "__index__", None)
+        if whole is not None:
+            total = whole() * _SECOND + nsecs.__index__()
+        elif nsecs:
+            raise ValueError("nsecs cannot be given with a fraction of seconds")
+        else:
+            total = _float_to_nsec(float(secs))
+        self._secs, self._nsecs = divmod(total, _SECOND)
+
+    @classmethod
+    def _raw(cls: type[_V], secs: int, nsecs: int) -> _V:
+        """The two numbers as they stand, not normalised: what a peer sent."""
+        value = _new(cls)
+        value._secs = secs
+        value._nsecs = nsecs
+        return value
+
+    @classmethod
+    def from_sec(cls: type[_V], secs: float) -> _V:
+        """The value for a number of seconds, rounded to the nearest nanosecond."""
+        return cls.from_nsec(_float_to_nsec(secs))
+
+    @classmethod
+    def from_nsec(cls: type[_V], nsecs: int) -> _V:
+        """The value for a whole number of nanoseconds."""
+        return cls(0, nsecs)
+
+    @property
+    def secs(self) -> int:
+        """The whole seconds."""
+        return self._secs
+
+    @property
+    def nsecs(self) -> int:
+        """The nanoseconds beyond :attr:`secs`.
+
+        0 to 999,999,999, except in a value that a peer sent otherwise.
+        """
+        return self._nsecs
+
+    def to_sec(self) -> float:
+        """Seconds as a float (good to about 200 ns for present-day times)."""
+        return self._secs + self._nsecs / 1e9
+
+    def to_nsec(self) -> int:
+        """All of it in nanoseconds, exactly."""
+        return self._secs * _SECOND + self._nsecs
+
+    def is_zero(self) -> bool:
+        """Whether both parts are zero."""
+        return self._secs == 0 and self._nsecs == 0
+
+    def __bool__(self) -> bool:
+        return self._secs != 0 or self._nsecs != 0
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}(secs={self._secs}, nsecs={self._nsecs})"
+
+    def __str__(self) -> str:
+        total = self.to_nsec()
+        secs, nsecs = divmod(abs(total), _SECOND)
+        return f"{'-' if total < 0 else ''}{secs}.{nsecs:09d}"
+
+    # Pickling and copying keep the parts as they stand, normalised or not.
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _raw_value, (type(self), self._secs, self._nsecs)
+
+    def __copy__(self: _V) -> _V:
+        return self
+
+    def __deepcopy__(self: _V, memo: dict[int, Any]) -> _V:
+        return self
+
+
+def _raw_value(cls: type[_V], secs: int, nsecs: int) -> _V:
+    return cls._raw(secs, nsecs)
+
+
+class Time(_TimeValue):
+    """A point in time: seconds and nanoseconds since the epoch (1970, UTC).
+
+    ``Time(secs=0, nsecs=0)`` carries surplus nanoseconds over; ``secs`` may be a float
+    when ``nsecs`` is not given. A time before the epoch is a :class:`ValueError`. A time
+    after 2106 can be computed with, but has no form on the wire.
+    """
+
+    __slots__ = ()
+
+    def __init__(self, secs: int | float = 0, nsecs: int = 0) -> None:
+        super().__init__(secs, nsecs)
+        if self._secs < 0:
+            raise ValueError(f"a time before the epoch: {secs} s, {nsecs} ns")
+
+    @classmethod
+    def now(cls) -> Time:
+        """This machine's time of day."""
+        return cls(0, time_ns())
+
+    def to_time(self) -> float:
+        """The same as :meth:`to_sec`: what :func:`time.time` would say."""
+        return self.to_sec()
+
+    def __add__(self, other: Duration) -> Time:
+        if isinstance(other, Duration):
+            return Time(0, self.to_nsec() + other.to_nsec())
+        return NotImplemented
+
+    __radd__ = __add__
+
+    @overload
+    def __sub__(self, other: Time) -> Duration: ...
+    @overload
+    def __sub__(self, other: Duration) -> Time: ...
+    def __sub__(self, other: Time | Duration) -> Time | Duration:
+        if isinstance(other, Time):
+            return Duration(0, self.to_nsec() - other.to_nsec())
+        if isinstance(other, Duration):
+            return Time(0, self.to_nsec() - other.to_nsec())
+        return NotImplemented
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Time):
+            return self.to_nsec() == other.to_nsec()
+        return NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.to_nsec())
+
+    def __lt__(self, other: Time) -> bool:
+        if isinstance(other, Time):
+            return self.to_nsec() < other.to_nsec()
+        return NotImplemented
+
+    def __le__(self, other: Time) -> bool:
+        if isinstance(other, Time):
+            return self.to_nsec() <= other.to_nsec()
+        return NotImplemented
+
+    def __gt__(self, other: Time) -> bool:
+        if isinstance(other, Time):
+            return self.to_nsec() > other.to_nsec()
+        return NotImplemented
+
+    def __ge__(self, other: Time) -> bool:
+        if isinstance(other, Time):
+            return self.to_nsec() >= other.to_nsec()
+        return NotImplemented
+
+
+class Duration(_TimeValue):
+    """A signed length of time.
+
+    ``Duration(secs=0, nsecs=0)`` carries surplus nanoseconds over, so that -1.5 s is
+    ``secs=-2, nsecs=500000000``; ``secs`` may be a float when ``nsecs`` is not given.
+    """
+
+    __slots__ = ()
+
+    def __add__(self, other: Duration) -> Duration:
+        if isinstance(other, Duration):
+            return Duration(0, self.to_nsec() + other.to_nsec())
+        return NotImplemented
+
+    def __sub__(self, other: Duration) -> Duration:
+        if isinstance(other, Duration):
+            return Duration(0, self.to_nsec() - other.to_nsec())
+        return NotImplemented
+
+    def __neg__(self) -> Duration:
+        return Duration(0, -self.to_nsec())
+
+    def __pos__(self) -> Duration:
+        return self
+
+    def __abs__(self) -> Duration:
+        return Duration(0, abs(self.to_nsec()))
+
+    def __mul__(self, factor: float) -> Duration:
+        if _is_number(factor):
+            return Duration(0, round(self.to_nsec() * factor))
+        return NotImplemented
+
+    __rmul__ = __mul__
+
+    @overload
+    def __truediv__(self, other: Duration) -> float: ...
+    @overload
+    def __truediv__(self, other: float) -> Duration: ...
+    def __truediv__(self, other: float | Duration) -> float | Duration:
+        """By a number: a duration, to the nearest nanosecond. By a duration: the ratio."""
+        if isinstance(other, Duration):
+            return self.to_nsec() / other.to_nsec()
+        if isinstance(other, int):
+            # In whole numbers: a float would be inexact beyond 104 days.
+            return Duration(0, (2 * self.to_nsec() + other) // (2 * other))
+        if _is_number(other):
+            return Duration(0, round(self.to_nsec() / other))
+        return NotImplemented
+
+    @overload
+    def __floordiv__(self, other: Duration) -> int: ...
+    @overload
+    def __floordiv__(self, other: float) -> Duration: ...
+    def __floordiv__(self, other: float | Duration) -> int | Duration:
+        """By a number: a duration of whole seconds, as in rospy. By a duration: how often."""
+        if isinstance(other, Duration):
+            return self.to_nsec() // other.to_nsec()
+        if _is_number(other):
+            return Duration(int(self.to_nsec() // (other * _SECOND)))
+        return NotImplemented
+
+    def __mod__(self, other: Duration) -> Duration:
+        if isinstance(other, Duration):
+            return Duration(0, self.to_nsec() % other.to_nsec())
+        return NotImplemented
+
+    def __divmod__(self, other: Duration) -> tuple[int, Duration]:
+        if isinstance(other, Duration):
+            quotient, rest = divmod(self.to_nsec(), other.to_nsec())
+            return quotient, Duration(0, rest)
+        return NotImplemented
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Duration):
+            return self.to_nsec() == other.to_nsec()
+        return NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.to_nsec())
+
+    def __lt__(self, other: Duration) -> bool:
+        if isinstance(other, Duration):
+            return self.to_nsec() < other.to_nsec()
+        return NotImplemented
+
+    def __le__(self, other: Duration) -> bool:
+        if isinstance(other, Duration):
+            return self.to_nsec() <= other.to_nsec()
+        return NotImplemented
+
+    def __gt__(self, other: Duration) -> bool:
+        if isinstance(other, Duration):
+            return self.to_nsec() > other.to_nsec()
+        return NotImplemented
+
+    def __ge__(self, other: Duration) -> bool:
+        if isinstance(other, Duration):
+            return self.to_nsec() >= other.to_nsec()
+        return NotImplemented

@@ -1,0 +1,50 @@
+"""The answers of master and nodes: ``[code, status, value]``, code 1 for success."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerError, PeerUnreachable
+
+if TYPE_CHECKING:
+    from aioros1.net.xmlrpc_client import XmlRpcClient
+
+__all__ = ["call_triple"]
+
+
+async def call_triple(
+    client: XmlRpcClient,
+    uri: str,
+    method: str,
+    params: tuple[Any, ...],
+    refused: type[MasterError] | type[PeerError],
+    unreachable: type[MasterUnreachable] | type[PeerUnreachable],
+    *,
+    bare: bool = False,
+) -> Any:
+    """Call a method and return the value of its answer.
+
+    Raises ``refused`` for any code but 1, for a fault and for an answer that is not a
+    triple; ``unreachable`` when there is no answer. With ``bare`` an answer that is not
+    a triple is returned as it is: roscpp answers ``getBusStats`` so.
+    """
+    from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
+
+    try:
+        answer = await client.call(uri, method, *params)
+    except XmlRpcFault as fault:
+        raise refused(fault.code, fault.text) from fault
+    except XmlRpcError as error:
+        raise refused(-1, f"{method} at {uri}: {error}") from error
+    except (OSError, TimeoutError) as error:
+        raise unreachable(str(error)) from error
+    except RuntimeError as error:  # the client is closed, and with it its node
+        raise ClosedError(f"{method} at {uri}: {error}") from error
+    if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
+        code, status, value = answer
+        if code == 1:
+            return value
+        raise refused(code, f"{method} at {uri}: {status}")
+    if bare:
+        return answer
+    raise refused(-1, f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}")

@@ -1,0 +1,290 @@
+"""The handshakes of TCPROS: who says what before messages flow, for all four sides.
+
+A connection starts with the connecting side sending a header; the accepting side
+answers with one, or with one that holds only ``error`` and closes. The classes here
+take and give bytes and know nothing of sockets:
+
+* :class:`TopicClient`: a subscriber, which connects to a publisher.
+* :class:`ServiceClient`: a service caller, which connects to a provider.
+* :class:`Server`: the accepting side of both, which learns from the header what is
+  asked for and then accepts or refuses.
+
+Which fields are sent is what rospy and roscpp send, and what rosbag, topic_tools and
+MATLAB need; which are required is what rospy and roscpp require.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from aioros1.errors import HandshakeError
+from aioros1.wire.header import HeaderError, HeaderParser, encode_header
+
+__all__ = ["Server", "ServiceClient", "ServiceOffer", "TopicClient", "TopicOffer"]
+
+_TRUE = frozenset({"1", "true", "True"})
+
+
+@dataclass(frozen=True, slots=True)
+class TopicOffer:
+    """What a node publishes on a topic, or wants to receive from it."""
+
+    topic: str
+    type: str
+    md5sum: str
+    definition: str
+    latching: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceOffer:
+    """A service that a node provides, or wants to call."""
+
+    service: str
+    type: str
+    md5sum: str
+
+
+class _Side:
+    """Receives one header. ``peer`` names the other side in errors."""
+
+    def __init__(self, peer: str, *, max_bytes: int, max_fields: int) -> None:
+        self.peer = peer
+        self._parser = HeaderParser(max_bytes=max_bytes, max_fields=max_fields)
+        self.header: dict[str, str] = {}
+        """The header of the other side, once it is whole."""
+
+    @property
+    def missing(self) -> int:
+        """Bytes that can be read without taking any that follow the header."""
+        try:
+            return self._parser.missing()
+        except HeaderError as error:
+            raise HandshakeError(self.peer, str(error)) from error
+
+    def receive_data(self, data: bytes) -> bool:
+        """Take bytes; True once the header of the other side is whole.
+
+        Empty ``data`` says that the other side closed. Raises
+        :class:`~aioros1.HandshakeError`.
+        """
+        if not data:
+            raise HandshakeError(self.peer, "closed the connection instead of sending a header")
+        try:
+            header = self._parser.feed(data)
+        except HeaderError as error:
+            raise HandshakeError(self.peer, f"bad connection header: {error}") from error
+        if header is None:
+            return False
+        self.header = header
+        self._check(header)
+        return True
+
+    def _check(self, header: dict[str, str]) -> None:
+        raise NotImplementedError
+
+    def _fail(self, text: str) -> HandshakeError:
+        return HandshakeError(self.peer, text)
+
+
+class _Client(_Side):
+    """The side that connects and speaks first."""
+
+    def data_to_send(self) -> bytes:
+        return encode_header(self._request())
+
+    def _request(self) -> dict[str, str]:
+        raise NotImplementedError
+
+    def _check_md5sum(self, ours: str, what: str) -> None:
+        # rospy and roscpp take what comes, whatever its md5sum. They then decode it
+        # as something it is not.
+        theirs = self.header.get("md5sum")
+        if theirs is not None and ours != theirs and "*" not in (ours, theirs):
+            raise self._fail(
+                f"{what} is {self.header.get('type', '?')} with md5sum {theirs} there, "
+                f"and has md5sum {ours} here"
+            )
+
+
+class TopicClient(_Client):
+    """A subscriber's side. ``wanted.md5sum`` and ``wanted.type`` may be ``*``."""
+
+    def __init__(
+        self,
+        peer: str,
+        caller_id: str,
+        wanted: TopicOffer,
+        *,
+        tcp_nodelay: bool = True,
+        max_bytes: int = 1 << 20,
+        max_fields: int = 256,
+    ) -> None:
+        super().__init__(peer, max_bytes=max_bytes, max_fields=max_fields)
+        self.caller_id = caller_id
+        self.wanted = wanted
+        self.tcp_nodelay = tcp_nodelay
+
+    def _request(self) -> dict[str, str]:
+        wanted = self.wanted
+        return {
+            "callerid": self.caller_id,
+            "md5sum": wanted.md5sum,
+            "message_definition": wanted.definition,
+            "tcp_nodelay": "1" if self.tcp_nodelay else "0",
+            "topic": wanted.topic,
+            "type": wanted.type,
+        }
+
+    def _check(self, header: dict[str, str]) -> None:
+        if "error" in header:
+            raise self._fail(header["error"])
+        for name in ("md5sum", "type"):
+            if name not in header:
+                raise self._fail(f"its header has no {name}; it has {sorted(header)}")
+        self._check_md5sum(self.wanted.md5sum, f"topic {self.wanted.topic}")
+
+    @property
+    def agreed(self) -> TopicOffer:
+        """What the publisher says it publishes."""
+        header = self.header
+        return TopicOffer(
+            topic=self.wanted.topic,
+            type=header["type"],
+            md5sum=header["md5sum"],
+            definition=header.get("message_definition", ""),
+            latching=header.get("latching") in _TRUE,
+        )
+
+
+class ServiceClient(_Client):
+    """A service caller's side. ``probe`` only asks whether the service is there."""
+
+    def __init__(
+        self,
+        peer: str,
+        caller_id: str,
+        wanted: ServiceOffer,
+        *,
+        persistent: bool = False,
+        probe: bool = False,
+        tcp_nodelay: bool = True,
+        max_bytes: int = 1 << 20,
+        max_fields: int = 256,
+    ) -> None:
+        super().__init__(peer, max_bytes=max_bytes, max_fields=max_fields)
+        self.caller_id = caller_id
+        self.wanted = wanted
+        self.persistent = persistent
+        self.probe = probe
+        self.tcp_nodelay = tcp_nodelay
+
+    def _request(self) -> dict[str, str]:
+        fields = {
+            "callerid": self.caller_id,
+            "md5sum": self.wanted.md5sum,
+            "service": self.wanted.service,
+            "type": self.wanted.type,
+        }
+        if self.persistent:
+            fields["persistent"] = "1"
+        if self.probe:
+            fields["probe"] = "1"
+        if self.tcp_nodelay:
+            fields["tcp_nodelay"] = "1"
+        return fields
+
+    def _check(self, header: dict[str, str]) -> None:
+        if "error" in header:
+            raise self._fail(header["error"])
+        self._check_md5sum(self.wanted.md5sum, f"service {self.wanted.service}")
+
+
+class Server(_Side):
+    """The accepting side, of topics and services on one port.
+
+    Once :meth:`receive_data` returned True, :attr:`topic` or :attr:`service` names
+    what is asked for; then :meth:`accept_topic`, :meth:`accept_service` or
+    :meth:`refuse` gives the bytes to answer with.
+    """
+
+    def _check(self, header: dict[str, str]) -> None:
+        if "callerid" in header:
+            self.peer = f"{header['callerid']} at {self.peer}"
+        for name in ("callerid", "md5sum"):
+            if name not in header:
+                raise self._fail(f"the connection header has no {name}")
+        if "topic" not in header and "service" not in header:
+            raise self._fail("the connection header has neither topic nor service")
+
+    @property
+    def caller_id(self) -> str:
+        return self.header.get("callerid", "")
+
+    @property
+    def topic(self) -> str | None:
+        """The topic asked for; None if it is a service."""
+        return None if self.service is not None else self.header["topic"]
+
+    @property
+    def service(self) -> str | None:
+        """The service asked for; None if it is a topic."""
+        return self.header.get("service")
+
+    @property
+    def persistent(self) -> bool:
+        return self.header.get("persistent") in _TRUE
+
+    @property
+    def probe(self) -> bool:
+        return self.header.get("probe") in _TRUE
+
+    def accept_topic(
+        self, caller_id: str, offer: TopicOffer, extra: Mapping[str, str] | None = None
+    ) -> bytes:
+        """The answer to a subscriber; ``extra`` fields never replace the standard ones.
+
+        Raises :class:`~aioros1.HandshakeError` when it expects another definition. A
+        type of another name with the same md5sum is accepted, as rospy and roscpp do:
+        packages that were renamed rely on it.
+        """
+        self._check_md5sum(f"topic {offer.topic}", offer.type, offer.md5sum)
+        return encode_header(
+            {
+                **(extra or {}),
+                "callerid": caller_id,
+                "latching": "1" if offer.latching else "0",
+                "md5sum": offer.md5sum,
+                "message_definition": offer.definition,
+                "topic": offer.topic,
+                "type": offer.type,
+            }
+        )
+
+    def accept_service(self, caller_id: str, offer: ServiceOffer) -> bytes:
+        """The answer to a service caller; raises as :meth:`accept_topic`."""
+        self._check_md5sum(f"service {offer.service}", offer.type, offer.md5sum)
+        # rospy sends `service`, roscpp the two type names; both are understood by both.
+        return encode_header(
+            {
+                "callerid": caller_id,
+                "md5sum": offer.md5sum,
+                "request_type": f"{offer.type}Request",
+                "response_type": f"{offer.type}Response",
+                "service": offer.service,
+                "type": offer.type,
+            }
+        )
+
+    def refuse(self, text: str) -> bytes:
+        """The answer that says why not; the connection is closed behind it."""
+        return encode_header({"error": text})
+
+    def _check_md5sum(self, what: str, type: str, md5sum: str) -> None:
+        theirs = self.header["md5sum"]
+        if theirs not in ("*", md5sum):
+            raise self._fail(
+                f"client {self.caller_id} wants {what} as {self.header.get('type', '?')} with "
+                f"md5sum {theirs}, but it is {type} with md5sum {md5sum} here"
+            )

@@ -1,0 +1,35 @@
+"""What flows on a service connection behind the headers.
+
+A request is a frame. An answer is one byte, 1 for success and 0 for failure, and a
+frame: the response, or the text of the error
+(https://wiki.ros.org/ROS/TCPROS, "Service client").
+"""
+
+from __future__ import annotations
+
+import struct
+
+__all__ = ["FAILURE", "SUCCESS", "ServiceFrameError", "encode_failure", "frame_length"]
+
+SUCCESS = b"\x01"
+FAILURE = b"\x00"
+
+_U32 = struct.Struct("<I")
+
+
+class ServiceFrameError(ValueError):
+    """A request or an answer beyond the limit."""
+
+
+def frame_length(prefix: bytes, max_bytes: int) -> int:
+    """The length that the four bytes ``prefix`` announce; refuses more than ``max_bytes``."""
+    (length,) = _U32.unpack(prefix)
+    if length > max_bytes:
+        raise ServiceFrameError(f"a frame of {length} bytes, more than {max_bytes}")
+    return int(length)
+
+
+def encode_failure(text: str) -> bytes:
+    """The answer that carries an error instead of a response."""
+    data = text.encode("utf-8", "surrogateescape")
+    return FAILURE + _U32.pack(len(data)) + data

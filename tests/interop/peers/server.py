@@ -1,0 +1,37 @@
+"""A rospy service server: answers with the JSON given, raises, or returns nothing."""
+
+import argparse
+import json
+
+import genpy
+import rospy
+from common import plain, say, service_class
+
+parser = argparse.ArgumentParser()
+parser.add_argument("service")
+parser.add_argument("type")
+parser.add_argument("--reply", default="{}")
+parser.add_argument("--error", help="raise this")
+parser.add_argument("--none", action="store_true")
+parser.add_argument("--name", default="rospy_server")
+options = parser.parse_args(rospy.myargv()[1:])
+cls = service_class(options.type)
+
+
+def answer(request):
+    say(request=plain(request), callerid=request._connection_header["callerid"])
+    if options.error is not None:
+        raise ValueError(options.error)
+    if options.none:
+        return None
+    response = cls._response_class()
+    fields = json.loads(options.reply)
+    genpy.message.fill_message_args(response, [fields] if fields else [])
+    return response
+
+
+rospy.init_node(options.name)
+service = rospy.Service(options.service, cls, answer)
+say(ready=True)
+rospy.spin()
+say(shutdown=True)

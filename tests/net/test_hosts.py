@@ -1,0 +1,153 @@
+"""Which addresses are called, listened on and told to others."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from typing import Any
+
+import pytest
+
+from aioros1.net.hosts import (
+    HostResolver,
+    advertised_host,
+    bind_address_for,
+    bind_sockets,
+    is_loopback,
+    local_address,
+    local_address_facing,
+    resolve,
+    uri_host,
+)
+
+V4, V6 = socket.AF_INET, socket.AF_INET6
+
+
+@pytest.mark.parametrize(
+    ("host", "expected"),
+    [
+        ("127.0.0.1", [(V4, "127.0.0.1")]),
+        ("10.1.2.3", [(V4, "10.1.2.3")]),
+        ("::1", [(V6, "::1")]),
+        ("[::1]", [(V6, "::1")]),
+        ("localhost", [(V4, "127.0.0.1"), (V6, "::1")]),
+        ("LocalHost.", [(V4, "127.0.0.1"), (V6, "::1")]),
+    ],
+)
+async def test_numbers_and_localhost_need_no_thread(
+    host: str, expected: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def getaddrinfo(*_: Any, **__: Any) -> Any:
+        pytest.fail("asked the resolver")
+
+    monkeypatch.setattr(asyncio.get_running_loop(), "getaddrinfo", getaddrinfo, raising=False)
+    assert await resolve(host, 1) == expected
+
+
+async def test_names_are_looked_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def getaddrinfo(host: str, port: int, **_: Any) -> Any:
+        assert (host, port) == ("robot", 11311)
+        rows = [(V4, "10.0.0.1"), (V4, "10.0.0.1"), (V6, "fe80::1"), (socket.AF_UNIX, "x")]
+        return [(family, socket.SOCK_STREAM, 6, "", (address, port)) for family, address in rows]
+
+    class Loop:
+        pass
+
+    loop = Loop()
+    loop.getaddrinfo = getaddrinfo  # type: ignore[attr-defined]
+    monkeypatch.setattr(asyncio, "get_running_loop", lambda: loop)
+    assert await resolve("robot", 11311) == [(V4, "10.0.0.1"), (V6, "fe80::1")]
+
+
+async def test_what_is_no_name_is_an_os_error() -> None:
+    with pytest.raises(OSError, match="not a host name"):
+        await resolve("a" * 64 + ".example", 1)
+
+
+async def test_resolver_for_aiohttp() -> None:
+    resolver = HostResolver()
+    found = await resolver.resolve("localhost", 7, V4)
+    assert [(entry["host"], entry["port"], entry["family"]) for entry in found] == [
+        ("127.0.0.1", 7, V4)
+    ]
+    assert len(await resolver.resolve("localhost", 7, socket.AF_UNSPEC)) == 2
+    await resolver.close()
+
+
+def test_the_address_that_faces_another() -> None:
+    assert local_address_facing("127.0.0.1") == "127.0.0.1"
+    with pytest.raises(ValueError, match="numeric"):
+        local_address_facing("localhost")
+    found = local_address()
+    assert found is None or not is_loopback(found)
+
+
+def test_advertised_host_follows_the_environment() -> None:
+    assert advertised_host({"ROS_HOSTNAME": "robot", "ROS_IP": "10.0.0.1"}) == "robot"
+    assert advertised_host({"ROS_HOSTNAME": "", "ROS_IP": "10.0.0.1"}) == "10.0.0.1"
+
+
+def test_advertised_host_without_a_network(monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_route(remote: str) -> str:
+        raise OSError("Network is unreachable")
+
+    monkeypatch.setattr("aioros1.net.hosts.local_address_facing", no_route)
+    assert local_address() is None
+    assert advertised_host({}) == "localhost"
+
+
+@pytest.mark.parametrize(
+    ("host", "expected"),
+    [
+        ("localhost", "127.0.0.1"),
+        ("127.0.0.1", "127.0.0.1"),
+        ("127.0.1.1", "127.0.1.1"),
+        ("::1", "::1"),
+        ("[::1]", "::1"),
+        ("robot", "0.0.0.0"),
+        ("10.0.0.1", "0.0.0.0"),
+        ("fe80::1", "::"),
+    ],
+)
+def test_where_to_listen(host: str, expected: str) -> None:
+    assert bind_address_for(host) == expected
+
+
+def test_hosts_in_uris() -> None:
+    assert [uri_host(host) for host in ("robot", "10.0.0.1", "::1", "[::1]")] == [
+        "robot",
+        "10.0.0.1",
+        "[::1]",
+        "[::1]",
+    ]
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "localhost"])
+def test_listening(host: str) -> None:
+    (sock,) = bind_sockets(host)
+    with sock, socket.create_connection(sock.getsockname(), timeout=5):
+        assert sock.getsockname()[0] == "127.0.0.1"
+
+
+@pytest.mark.skipif(not socket.has_ipv6, reason="needs IPv6")
+def test_listening_on_both_kinds() -> None:
+    try:
+        (sock,) = bind_sockets("::")
+    except OSError:
+        pytest.skip("needs IPv6")
+    with sock, socket.create_connection(("127.0.0.1", sock.getsockname()[1]), timeout=5):
+        pass
+
+
+def test_a_port_that_is_taken() -> None:
+    (sock,) = bind_sockets("127.0.0.1")
+    port = sock.getsockname()[1]
+    with sock, pytest.raises(OSError, match=rf"cannot listen on 127\.0\.0\.1:{port}: ") as caught:
+        bind_sockets("127.0.0.1", port)
+    assert caught.value.errno
+
+
+@pytest.mark.parametrize(("host", "port"), [("robot", 0), ("127.0.0.1", 65536), ("127.0.0.1", -1)])
+def test_what_cannot_be_listened_on(host: str, port: int) -> None:
+    with pytest.raises(ValueError, match="expected"):
+        bind_sockets(host, port)
