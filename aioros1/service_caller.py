@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import EllipsisType
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 from urllib.parse import urlsplit
 
 from aioros1.errors import (
@@ -107,8 +107,7 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     def request(self, **fields: Any) -> Q:
         """A new request."""
-        message: Any = self.service_class.Request(**fields)
-        return message
+        return cast("Q", self.service_class.Request(**fields))
 
     async def call(
         self,

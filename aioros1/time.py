@@ -7,6 +7,7 @@ two signed ones.
 
 from __future__ import annotations
 
+from operator import index
 from time import time_ns
 from typing import Any, ClassVar, Final, TypeVar, overload
 
@@ -45,13 +46,12 @@ class _TimeValue:
 
     def __init__(self, secs: int | float = 0, nsecs: int = 0) -> None:
         # Anything with __index__ is a whole number: NumPy's integers too.
-        whole = getattr(secs, "__index__", None)
-        if whole is not None:
-            total = whole() * _SECOND + nsecs.__index__()
+        if hasattr(secs, "__index__"):
+            total = index(secs) * _SECOND + index(nsecs)
         elif nsecs:
             raise ValueError("nsecs cannot be given with a fraction of seconds")
         else:
-            total = _float_to_nsec(float(secs))
+            total = _float_to_nsec(float(secs + 0.0))  # float() alone would read strings
         self._secs, self._nsecs = divmod(total, _SECOND)
 
     @classmethod

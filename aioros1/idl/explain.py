@@ -67,7 +67,7 @@ class _Reader:
             self.step(count * size, path)
             return
         smallest = 4 if nested is None else nested._min_size
-        if count * smallest > self.end - self.pos:
+        if field.is_array and count * smallest > self.end - self.pos:
             self.step(count * smallest, path)
         for index in range(count):
             place = f"{path}[{index}]" if field.is_array else path

@@ -81,7 +81,9 @@ class Message(metaclass=MessageType):
     _frame_parts: ClassVar[Callable[[Any], list[bytes | memoryview]]]
     """The same in parts, in which large payloads of bytes are not copied."""
     _decode: ClassVar[Callable[[bytes, int, int], Any]]
-    """A message from bytes, a position and an end; octets may be left over."""
+    """A message from bytes, a position and an end; octets may be left over.
+
+    The end must lie within the bytes."""
     _decode_view: ClassVar[Callable[[memoryview, int, int], Any]]
     """The same from a memoryview, with one copy of each payload."""
     _decode_views: ClassVar[Callable[[memoryview, int, int], Any]]

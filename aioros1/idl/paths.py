@@ -69,7 +69,7 @@ class _Root:
             found.add(path.name)
         if path.name in KINDS:
             found.add(path.parent.name)
-        found.update(entry.name for entry in _subdirectories(path))
+        found.update(entry.name for entry in _subdirectories(path) if entry.name not in KINDS)
         return found
 
     def crawled(self) -> dict[str, Path]:

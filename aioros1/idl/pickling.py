@@ -5,12 +5,14 @@
 from __future__ import annotations
 
 import sys
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from .values import own_memory
 
 if TYPE_CHECKING:
     from .message import Message
+    from .store import MessageStore
 
 __all__ = ["reduce_message"]
 
@@ -35,10 +37,16 @@ def _restore(cls: type[Message], values: tuple[Any, ...]) -> Message:
     return message
 
 
-def _restore_defined(type: str, md5sum: str, full_text: str, values: tuple[Any, ...]) -> Message:
-    from .store import default_store
+@cache
+def _store() -> MessageStore:
+    """A store of their own: what was pickled here must not be found by name there."""
+    from .store import MessageStore
 
-    cls = default_store().add_definition(type, full_text)
+    return MessageStore()
+
+
+def _restore_defined(type: str, md5sum: str, full_text: str, values: tuple[Any, ...]) -> Message:
+    cls = _store().add_definition(type, full_text)
     if cls._md5sum != md5sum:
         raise TypeError(f"the pickled definition of {type} is not the one it was")
     return _restore(cls, values)

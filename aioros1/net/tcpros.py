@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 import socket
 from collections.abc import Awaitable, Callable, Mapping
-from typing import Literal, Protocol
+from typing import Literal, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError, HandshakeError
@@ -52,9 +52,7 @@ class Stream:
 
     @property
     def transport(self) -> asyncio.Transport:
-        transport = self.writer.transport
-        assert isinstance(transport, asyncio.Transport)
-        return transport
+        return cast("asyncio.Transport", self.writer.transport)
 
     async def receive_header(self, side: Side, *, timeout: float) -> None:
         """Read until ``side`` has its header, and not a byte beyond it.

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import aiohttp
+from aiohttp.abc import AbstractStreamWriter
 from yarl import URL
 
 from aioros1.net.hosts import HostResolver
@@ -22,6 +23,8 @@ __all__ = ["XmlRpcClient"]
 # Enough for a node that registers many roles at once; few enough that a server with a
 # thread per connection is not flooded.
 _PER_HOST = 8
+
+_LARGE = 256 << 10
 
 _HEADERS = {"Content-Type": "text/xml", "User-Agent": "aioros1"}
 
@@ -89,8 +92,9 @@ class XmlRpcClient:
         self, session: aiohttp.ClientSession, url: URL, body: bytes, what: str, attempt: _Attempt
     ) -> bytes:
         try:
+            data = body if len(body) <= _LARGE else _LargeBody(body)
             async with session.post(
-                url, data=body, allow_redirects=False, trace_request_ctx=attempt
+                url, data=data, allow_redirects=False, trace_request_ctx=attempt
             ) as response:
                 attempt.reused = False  # what is lost from here on is not sent again
                 return await self._read(response, what)
@@ -137,6 +141,24 @@ def _new_session() -> aiohttp.ClientSession:
         trust_env=False,
         trace_configs=[trace],
     )
+
+
+class _LargeBody(aiohttp.Payload):
+    """A body that is sent piece by piece; aiohttp warns of large ones in one piece."""
+
+    _value: bytes
+
+    def __init__(self, value: bytes) -> None:
+        super().__init__(value, content_type=_HEADERS["Content-Type"])
+        self._size = len(value)
+
+    def decode(self, encoding: str = "utf-8", errors: str = "strict") -> str:
+        return self._value.decode(encoding, errors)
+
+    async def write(self, writer: AbstractStreamWriter) -> None:
+        view = memoryview(self._value)
+        for begin in range(0, len(view), _LARGE):
+            await writer.write(view[begin : begin + _LARGE])
 
 
 class _Attempt:

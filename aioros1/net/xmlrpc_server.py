@@ -87,7 +87,9 @@ class XmlRpcServer:
         self._http: web.Server | None = None
         self._listeners: list[asyncio.Server] = []
         self._connections: set[_Connection] = set()
-        self._all_gone: asyncio.Future[None] | None = None
+        # The requests in progress, and the connections that have had one.
+        self._running: set[asyncio.Task[Any]] = set()
+        self._serving: set[asyncio.Task[Any]] = set()
         self._port = 0
 
     @property
@@ -133,6 +135,8 @@ class XmlRpcServer:
     async def close(self, *, timeout: float = 1.0) -> None:
         """Stop listening, let requests in progress finish for ``timeout`` seconds, close
         every connection. Not to be called from a method: it would wait for itself."""
+        if asyncio.current_task() in self._running:
+            raise RuntimeError("a method cannot close its own server: use Reply(after=...)")
         listeners, self._listeners = self._listeners, []
         for listener in listeners:
             listener.close()
@@ -140,9 +144,15 @@ class XmlRpcServer:
         if http is None:
             return
         http.pre_shutdown()
-        await http.shutdown(timeout)
+        # aiohttp loses sight of the tasks of a connection whose peer has gone, and would
+        # leave them behind; so they are ended here.
+        if self._running:
+            await asyncio.wait(self._running, timeout=timeout)
+        await _cancel(self._running)
+        await http.shutdown(0.1)
         for connection in list(self._connections):
             connection.abort()
+        await _cancel(self._serving)
         # A transport tells its protocol of the end in a later turn of the loop.
         for _ in range(100):
             if not self._connections:
@@ -154,8 +164,14 @@ class XmlRpcServer:
 
     async def _handle(self, request: web.BaseRequest) -> web.StreamResponse:
         connection = request.protocol
+        task = asyncio.current_task()
         assert isinstance(connection, _Connection)
+        assert task is not None
+        self._running.add(task)
         connection.request_begins()
+        if request.task not in self._serving:
+            self._serving.add(request.task)
+            request.task.add_done_callback(self._serving.discard)
         try:
             refusal = self._refuse(request)
             if refusal is not None:
@@ -171,6 +187,7 @@ class XmlRpcServer:
             return await self._send(request, connection, answer, afters)
         finally:
             connection.request_ends()
+            self._running.discard(task)
 
     def _refuse(self, request: web.BaseRequest) -> web.Response | None:
         headers = request.headers
@@ -307,6 +324,14 @@ class XmlRpcServer:
         return results
 
 
+async def _cancel(tasks: set[asyncio.Task[Any]]) -> None:
+    ended = list(tasks)
+    for task in ended:
+        task.cancel()
+    if ended:
+        await asyncio.wait(ended)
+
+
 def _multicall_entry(call: Any) -> tuple[str, tuple[Any, ...]]:
     if not isinstance(call, dict):
         raise XmlRpcFault(FAULT_PARAMS, "an entry of system.multicall is a struct")
@@ -386,13 +411,12 @@ class _Connection(web.RequestHandler):
 
     def abort(self) -> None:
         """Close at once; what was not sent yet is lost."""
-        transport = self.transport
-        if isinstance(transport, asyncio.WriteTransport):
-            transport.abort()
+        if self.transport is not None:
+            self.transport.abort()
 
     def _head_is_late(self) -> None:
         self._head_timer = None
-        if isinstance(self.transport, asyncio.WriteTransport):
+        if self.transport is not None:
             self.transport.write(
                 b"HTTP/1.1 408 Request Timeout\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
             )

@@ -52,7 +52,7 @@ class XmlRpcError(ValueError):
     """What came in is not an XML-RPC document, or not one we accept."""
 
 
-class XmlRpcFault(Exception):  # noqa: N818 - the word of the protocol
+class XmlRpcFault(Exception):
     """The other side answered with a fault: ``code`` and ``text`` are its own."""
 
     def __init__(self, code: int, text: str) -> None:

@@ -134,6 +134,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("triple", b"ab", "triple: expected 3 elements"),
     ("triple", b"abcd", "triple: expected 3 elements"),
     ("flags", [True, 2], r"flags\[1\]: expected bool, got 2"),
+    ("flags", b"\1\0", r"flags: expected bool\[\], got b"),
     ("flags", 3, r"flags: expected bool\[\], got 3"),
     ("flags", [None], r"flags\[0\]: expected bool, got None"),
     ("names", "abc", r"names: expected string\[\], got 'abc'"),
@@ -215,7 +216,6 @@ ACCEPTED: list[tuple[str, Any, Any]] = [
     ("flags", (1, False), [True, False]),
     ("flags", np.array([True, False]), [True, False]),
     ("flags", [np.True_, 0], [True, False]),
-    ("flags", b"\1\0", None),
     ("names", ("a", b"b\xff"), ["a", "b\udcff"]),
     ("names", np.array(["a", "b"]), ["a", "b"]),
     ("times", (Time(1),), [Time(1)]),
@@ -226,10 +226,6 @@ ACCEPTED: list[tuple[str, Any, Any]] = [
 def test_accepted(cls: Any, field: str, value: Any, shown: Any) -> None:
     message = cls()
     setattr(message, field, value)
-    if shown is None:
-        with pytest.raises(SerializationError, match=f"^{field}: "):
-            message.to_bytes()
-        return
     octets = message.to_bytes()
     got = getattr(cls.from_bytes(octets), field)
     assert (got.tolist() if isinstance(got, array) else got) == shown

@@ -5,13 +5,6 @@ Where ours answers differently on purpose, the row says how and why.
 
 from __future__ import annotations
 
-import asyncio
-import contextlib
-import os
-import shutil
-import signal
-import socket
-from collections.abc import AsyncIterator
 from typing import Any, NamedTuple
 
 import pytest
@@ -22,7 +15,6 @@ from aioros1.wire.xmlrpc import XmlRpcFault
 
 pytestmark = pytest.mark.interop
 
-ROSMASTER = shutil.which("rosmaster", path="/usr/bin:/opt/ros/noetic/bin")
 API = "http://127.0.0.1:1/"  # nobody listens: notifications are refused at once
 RPC = "rosrpc://127.0.0.1:2"
 
@@ -211,47 +203,6 @@ CONVERSATION = [
 ]  # fmt: skip
 
 
-@contextlib.asynccontextmanager
-async def rosmaster(home: str) -> AsyncIterator[str]:
-    if ROSMASTER is None:
-        pytest.skip("needs the Debian package python3-rosmaster")
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    environ = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "PYTHON"))}
-    environ |= {
-        "ROS_MASTER_URI": f"http://localhost:{port}",
-        "ROS_HOSTNAME": "localhost",
-        "ROS_PACKAGE_PATH": "/usr/share",
-        "ROS_ROOT": "/usr/share/ros",
-        "ROS_DISTRO": "noetic",
-        "ROS_HOME": home,
-        "PATH": "/usr/bin:/bin",
-    }
-    process = await asyncio.create_subprocess_exec(
-        ROSMASTER, "--core", "-p", str(port),
-        env=environ, stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.DEVNULL,
-    )  # fmt: skip
-    try:
-        uri = f"http://127.0.0.1:{port}"
-        client = XmlRpcClient()
-        async with asyncio.timeout(20):
-            while True:
-                try:
-                    await client.call(uri, "getPid", "/c")
-                    break
-                except ConnectionError:
-                    await asyncio.sleep(0.05)
-        await client.close()
-        yield uri
-    finally:
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-            process.send_signal(number)
-            with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(process.wait(), 3)
-                break
-
-
 async def ask(client: XmlRpcClient, uri: str, request: Row) -> Any:
     try:
         return _sorted(await client.call(uri, request.method, *request.params))
@@ -266,12 +217,12 @@ def _sorted(answer: Any) -> Any:
     return answer
 
 
-async def test_answers_are_those_of_rosmaster(tmp_path: Any) -> None:
+async def test_answers_are_those_of_rosmaster(rosmaster: str) -> None:
     client = XmlRpcClient()
-    async with rosmaster(str(tmp_path)) as theirs, Master("127.0.0.1", port=0) as ours:
+    async with Master("127.0.0.1", port=0) as ours:
         different = []
         for request in CONVERSATION:
-            expected = await ask(client, theirs, request)
+            expected = await ask(client, rosmaster, request)
             got = await ask(client, ours.uri, request)
             if request.ours is not None:
                 expected = _sorted(request.ours)

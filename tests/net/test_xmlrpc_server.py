@@ -439,6 +439,16 @@ async def test_closing_leaves_nothing_behind() -> None:
     await server.close()
 
 
+async def test_a_method_cannot_close_its_server() -> None:
+    async def method() -> None:
+        await server.close()
+
+    async with serving({"method": method}) as server:
+        with pytest.raises(XmlRpcFault, match="cannot close its own server"):
+            await call(server, "method")
+        assert await still_serves(server)
+
+
 async def test_requests_in_progress_may_finish() -> None:
     asked, go = asyncio.Event(), asyncio.Event()
 

@@ -1,0 +1,37 @@
+"""The node ``/rosout``: what every node logs on ``/rosout``, together on ``/rosout_agg``.
+
+Log viewers follow ``/rosout_agg``, so that they need one connection and not one to
+every node. roscore starts a program for this; here it is a node in the master's loop.
+"""
+
+from __future__ import annotations
+
+from aioros1.node import Node
+
+__all__ = ["RosoutAggregator"]
+
+
+class RosoutAggregator:
+    """Relays log messages, without decoding them, until it is closed."""
+
+    def __init__(self, master_uri: str, host: str) -> None:
+        self._node = Node(
+            "rosout", master_uri=master_uri, host=host, rosout=False, logger_services=False
+        )
+
+    async def start(self) -> None:
+        """Return when the topics are registered and the relay runs."""
+        await self._node.start()
+        publisher = await self._node.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=1000)
+        subscriber = await self._node.subscribe(
+            "/rosout", "rosgraph_msgs/Log", queue_size=1000, raw=True
+        )
+
+        async def relay() -> None:
+            async for message in subscriber:
+                publisher.publish_raw(message)
+
+        self._node._spawn(relay, name="rosout relay")
+
+    async def close(self) -> None:
+        await self._node.close()

@@ -1,0 +1,264 @@
+"""Who is told what, in which order, and that nobody waits for a node that hangs."""
+# ruff: noqa: N802 - rows of the table are in the names of the tests
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from typing import Any
+
+from aioros1.master import Master
+from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.net.xmlrpc_server import XmlRpcServer
+
+
+async def test_G1_the_old_node_is_told_to_end_and_its_subscribers_are_told(
+    ask: Any, make_node: Any
+) -> None:
+    old, new, sub = [await make_node(name) for name in ("/dup", "/dup", "/sub")]
+    await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
+    await ask("registerPublisher", "/dup", "/t", "a/T", old.uri)
+    await sub.has_been_told(1)
+    await ask("registerPublisher", "/dup", "/other", "a/T", new.uri)
+    (told,) = await old.has_been_told(1)
+    assert told[:2] == ("shutdown", "/master")
+    assert told[2] == "[/dup] Reason: new node registered with same name"
+    await sub.has_been_told(2)
+    assert sub.told == [
+        ("publisherUpdate", "/master", "/t", [old.uri]),
+        ("publisherUpdate", "/master", "/t", []),
+    ]
+    assert (await ask("lookupNode", "/c", "/dup"))[2] == new.uri
+
+
+async def test_G8_G9_every_change_of_the_publishers_is_told(ask: Any, make_node: Any) -> None:
+    sub = await make_node("/sub")
+    await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
+    for count, (method, params, publishers) in enumerate(
+        [
+            ("registerPublisher", ("a/T", "http://a:1/"), ["http://a:1/"]),
+            ("registerPublisher", ("a/T", "http://a:1/"), ["http://a:1/"]),
+            ("unregisterPublisher", ("http://a:1/",), []),
+        ],
+        1,
+    ):
+        await ask(method, "/pub", "/t", *params)
+        assert (await sub.has_been_told(count))[-1] == (
+            "publisherUpdate",
+            "/master",
+            "/t",
+            publishers,
+        )
+
+
+async def test_G10_nodes_that_hang_delay_nobody(master: Master, make_node: Any) -> None:
+    """They accept connections and never answer; some of them do not even accept."""
+    client = XmlRpcClient()
+    silent = []
+    for number in range(8):
+        sock = socket.socket()
+        sock.bind(("127.0.0.1", 0))
+        sock.listen(1 if number % 2 else 0)
+        silent.append(sock)
+        uri = f"http://127.0.0.1:{sock.getsockname()[1]}/"
+        await client.call(master.uri, "registerSubscriber", f"/hung{number}", "/t", "a/T", uri)
+        await client.call(master.uri, "subscribeParam", f"/hung{number}", uri, "/k")
+    good = await make_node("/good")
+    await client.call(master.uri, "registerSubscriber", "/good", "/t", "a/T", good.uri)
+    loop = asyncio.get_running_loop()
+    begin = loop.time()
+    for number in range(20):
+        count = len(good.told)
+        api = f"http://p{number}:1/"
+        await client.call(master.uri, "registerPublisher", f"/p{number}", "/t", "a/T", api)
+        await client.call(master.uri, "setParam", "/c", "/k", number)
+        await good.has_been_told(count + 1)
+    assert loop.time() - begin < 5
+    assert len(good.told[-1][3]) == 20
+    await client.close()
+    for sock in silent:
+        sock.close()
+
+
+async def test_G10_a_node_that_hangs_gets_the_newest_list_and_only_that(
+    ask: Any, make_node: Any
+) -> None:
+    sub = await make_node("/sub")
+    sub.hold = asyncio.Event()
+    await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
+    for number in range(50):
+        await ask("registerPublisher", f"/p{number}", "/t", "a/T", f"http://p{number}:1/")
+    await sub.has_been_told(1)
+    assert len(sub.told[0][3]) == 1
+    sub.hold.set()
+    await sub.until(lambda: len(sub.told[-1][3]) == 50)
+    assert len(sub.told) <= 4
+
+
+async def test_G10_what_was_not_answered_in_time_is_told_again(ask: Any, make_node: Any) -> None:
+    sub = await make_node("/sub")
+    sub.hold = asyncio.Event()
+    await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await sub.has_been_told(2)  # the first was given up
+    assert sub.told == [("publisherUpdate", "/master", "/t", ["http://p:1/"])] * 2
+    sub.hold.set()
+
+
+async def test_G10_a_node_that_has_left_is_not_told_again(
+    ask: Any, make_node: Any, master: Master
+) -> None:
+    sub = await make_node("/sub")
+    sub.hold = asyncio.Event()
+    await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await sub.has_been_told(1)
+    await ask("unregisterSubscriber", "/sub", "/t", sub.uri)
+    await asyncio.sleep(1.2)  # longer than the timeout and the pause after it
+    assert len(sub.told) == 1
+
+
+async def test_G11_dead_nodes_stay_registered(ask: Any) -> None:
+    with socket.socket() as sock:
+        sock.bind(("127.0.0.1", 0))
+        dead = f"http://127.0.0.1:{sock.getsockname()[1]}/"
+    await ask("registerSubscriber", "/dead", "/t", "a/T", dead)
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    assert (await ask("lookupNode", "/c", "/dead")) == [1, "node api", dead]
+    assert (await ask("getSystemState", "/c"))[2][1] == [["/t", ["/dead"]]]
+
+
+async def test_G15_lists_arrive_in_order(ask: Any, make_node: Any) -> None:
+    sub = await make_node("/sub")
+    await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
+    await asyncio.gather(
+        *(
+            ask("registerPublisher", f"/p{number}", "/t", "a/T", f"http://p{number}:1/")
+            for number in range(100)
+        )
+    )
+    await sub.until(lambda: len(sub.told[-1][3]) == 100)
+    sizes = [len(entry[3]) for entry in sub.told]
+    assert sizes == sorted(sizes)
+
+
+async def follow(ask: Any, node: Any, key: str) -> Any:
+    code, _, value = await ask("subscribeParam", node.name, node.uri, key)
+    assert code == 1
+    return value
+
+
+async def test_P11_unset_parameters_can_be_followed(ask: Any, make_node: Any) -> None:
+    node = await make_node("/n")
+    assert await follow(ask, node, "/unset") == {}
+    await ask("setParam", "/c", "/unset", 5)
+    assert await node.has_been_told(1) == [("paramUpdate", "/master", "/unset/", 5)]
+
+
+async def test_P12_P13_P14_P15_P17_what_a_follower_is_told(ask: Any, make_node: Any) -> None:
+    node = await make_node("/n")
+    await follow(ask, node, "/q/r")
+    steps: list[tuple[str, str, Any, Any]] = [
+        ("setParam", "/q/r", {"a": 1}, ("/q/r/", {"a": 1})),
+        ("setParam", "/q/r", {"a": 1}, ("/q/r/", {"a": 1})),  # P17
+        ("setParam", "/q/r/c", 5, ("/q/r/c/", 5)),  # P13
+        ("setParam", "/q", {"r": 7, "s": 8}, ("/q/r/", 7)),  # P14
+        ("setParam", "/q", {"s": 8}, ("/q/r/", {})),  # P14
+        ("setParam", "/q/rr", 1, None),  # P15
+        ("setParam", "/q/r", "x", ("/q/r/", "x")),
+        ("deleteParam", "/q/r", None, ("/q/r/", {})),
+        ("setParam", "/q/r", "y", ("/q/r/", "y")),
+        ("deleteParam", "/q", None, ("/q/r/", {})),
+        ("setParam", "/", {"q": {"r": 2}}, ("/q/r/", 2)),
+    ]
+    expected = []
+    for method, key, value, told in steps:
+        params = (key, value) if method == "setParam" else (key,)
+        assert (await ask(method, "/c", *params))[0] == 1
+        if told is not None:
+            expected.append(("paramUpdate", "/master", *told))
+            await node.has_been_told(len(expected))
+    assert node.told == expected
+
+
+async def test_P16_the_setter_is_not_told(ask: Any, make_node: Any) -> None:
+    node, other = await make_node("/n"), await make_node("/other")
+    await follow(ask, node, "/k")
+    await follow(ask, other, "/k")
+    await ask("setParam", "/n", "/k", 1)
+    await ask("setParam", "/c", "/k", 2)
+    assert await node.has_been_told(1) == [("paramUpdate", "/master", "/k/", 2)]
+    await other.until(lambda: other.told[-1][3] == 2)
+
+
+async def test_P18_unsubscribed_followers_are_not_told(ask: Any, make_node: Any) -> None:
+    node, other = await make_node("/n"), await make_node("/other")
+    await follow(ask, node, "/k")
+    await follow(ask, other, "/k")
+    answer = await ask("unsubscribeParam", "/n", node.uri, "/k/")
+    assert answer == [1, "Unsubscribe to parameter [/k/]", 1] or answer[2] == 1
+    await ask("setParam", "/c", "/k", 1)
+    await other.has_been_told(1)
+    assert node.told == []
+
+
+async def test_P19_a_node_that_answers_it_does_not_follow_is_forgotten(
+    ask: Any, make_node: Any
+) -> None:
+    node = await make_node("/n")
+    node.answer = [-1, "not subscribed", 0]
+    await follow(ask, node, "/k")
+    await ask("setParam", "/c", "/k/new", 1)  # rospy answers -1 to this, and still follows /k
+    await node.has_been_told(1)
+    await ask("setParam", "/c", "/k", 1)
+    await node.has_been_told(2)
+    async with asyncio.timeout(10):
+        while (await ask("lookupNode", "/c", "/n"))[0] == 1:
+            await asyncio.sleep(0)
+    await ask("setParam", "/c", "/k", 2)
+    assert len(node.told) == 2
+
+
+async def test_P13_the_order_of_overlapping_updates_is_kept(ask: Any, make_node: Any) -> None:
+    """Whatever is merged while the node is busy, the last word is the last one said."""
+    node = await make_node("/n")
+    node.hold = asyncio.Event()
+    await follow(ask, node, "/k")
+    await ask("setParam", "/c", "/k/other", 0)
+    await node.has_been_told(1)
+    for key, value in [("/k", {"a": 1}), ("/k/a", 2), ("/k", {"a": 3}), ("/k/b", 4)]:
+        await ask("setParam", "/c", key, value)
+    node.hold.set()
+    await node.until(lambda: node.told[-1][2] == "/k/b/")
+    assert [entry[2:] for entry in node.told if entry[2] != "/k/other/"] == [
+        ("/k/a/", 2),
+        ("/k/", {"a": 3}),
+        ("/k/b/", 4),
+    ]
+
+
+async def test_nodes_that_answer_nonsense_get_the_next_message(ask: Any, make_node: Any) -> None:
+    node = await make_node("/n")
+    node.answer = "no triple"
+    await ask("registerSubscriber", "/n", "/t", "a/T", node.uri)
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await node.has_been_told(1)
+    node.answer = None  # this cannot be sent, and becomes a fault
+    await ask("unregisterPublisher", "/p", "/t", "http://p:1/")
+    await node.has_been_told(2)
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await node.has_been_told(3)
+
+
+async def test_notifications_are_dropped_when_the_master_ends() -> None:
+    before = asyncio.all_tasks()
+    node = XmlRpcServer({"publisherUpdate": lambda *params: asyncio.sleep(3600)})
+    await node.start("127.0.0.1")
+    client = XmlRpcClient()
+    async with Master("127.0.0.1", port=0) as master:
+        uri = f"http://127.0.0.1:{node.port}/"
+        await client.call(master.uri, "registerSubscriber", "/n", "/t", "a/T", uri)
+        await client.call(master.uri, "registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await client.close()
+    await node.close(timeout=0.01)
+    assert asyncio.all_tasks() == before

@@ -1,0 +1,27 @@
+"""Run with an installed wheel and nothing else: a message and a call get through."""
+
+from __future__ import annotations
+
+import asyncio
+
+import aioros1
+from aioros1.msg.std_msgs import String
+from aioros1.srv.std_srvs import SetBool
+
+
+async def main() -> None:
+    async with (
+        aioros1.Master(host="localhost", port=0) as master,
+        aioros1.Node("smoke", master_uri=master.uri) as node,
+        node.advertise("chatter", String) as pub,
+        node.subscribe("chatter") as sub,
+        node.advertise_service("flip", SetBool, lambda request: {"success": not request.data}),
+    ):
+        await pub.wait_for_subscribers(timeout=5)
+        pub.publish(data="hello")
+        assert await sub.get(timeout=5) == String(data="hello")
+        assert (await node.call("flip", SetBool, data=False, timeout=5)).success
+    print("aioros1", aioros1.__version__, "works from", aioros1.__file__)
+
+
+asyncio.run(main())

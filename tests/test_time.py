@@ -1,0 +1,232 @@
+"""Time and Duration."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from aioros1.time import Duration, Time
+
+NANO = 1_000_000_000
+
+times = st.integers(0, (1 << 32) * NANO - 1).map(Time.from_nsec)
+durations = st.integers(-(1 << 31) * NANO, (1 << 31) * NANO - 1).map(Duration.from_nsec)
+
+
+class TestConstruction:
+    @pytest.mark.parametrize(
+        ("arguments", "parts"),
+        [
+            ((), (0, 0)),
+            ((5,), (5, 0)),
+            ((1, 2), (1, 2)),
+            ((1, NANO), (2, 0)),
+            ((1, 2 * NANO + 3), (3, 3)),
+            ((2, -1), (1, NANO - 1)),
+            ((1.5,), (1, NANO // 2)),
+            ((1.2,), (1, 200_000_000)),
+            ((True,), (1, 0)),
+            ((np.int32(3), np.uint8(4)), (3, 4)),
+            ((np.float32(0.5),), (0, NANO // 2)),
+        ],
+    )
+    @pytest.mark.parametrize("kind", [Time, Duration])
+    def test_is_normalised(self, kind: Any, arguments: Any, parts: tuple[int, int]) -> None:
+        value = kind(*arguments)
+        assert (value.secs, value.nsecs) == parts
+
+    @pytest.mark.parametrize(
+        ("value", "parts"),
+        [
+            (Duration(-1), (-1, 0)),
+            (Duration(0, -1), (-1, NANO - 1)),
+            (Duration(-1.5), (-2, NANO // 2)),
+            (Duration.from_sec(-0.25), (-1, 750_000_000)),
+            (Duration.from_nsec(-NANO - 1), (-2, NANO - 1)),
+        ],
+    )
+    def test_negative_durations(self, value: Duration, parts: tuple[int, int]) -> None:
+        assert (value.secs, value.nsecs) == parts
+
+    @pytest.mark.parametrize(
+        "make",
+        [
+            lambda: Time(-1),
+            lambda: Time(0, -1),
+            lambda: Time.from_sec(-0.1),
+            lambda: Time(1) - Duration(2),
+            lambda: Time(1) + Duration(-2),
+        ],
+    )
+    def test_there_is_no_time_before_the_epoch(self, make: Any) -> None:
+        with pytest.raises(ValueError, match="before the epoch"):
+            make()
+
+    def test_bad_arguments(self) -> None:
+        with pytest.raises(ValueError, match="nsecs cannot be given"):
+            Time(1.5, 5)
+        for bad in ("1", None, "x"):
+            with pytest.raises(TypeError):
+                Time(bad)  # type: ignore[arg-type]
+        for bad_float in (float("nan"), float("inf")):
+            with pytest.raises((ValueError, OverflowError)):
+                Time(bad_float)
+        with pytest.raises(TypeError):
+            Time(1, 2.5)  # type: ignore[arg-type]
+
+    def test_now(self) -> None:
+        before = time.time_ns()
+        now = Time.now()
+        assert before <= now.to_nsec() <= time.time_ns()
+
+    @given(st.integers(0, 10**19))
+    def test_from_nsec_is_exact(self, nsec: int) -> None:
+        assert Time.from_nsec(nsec).to_nsec() == nsec
+        assert Duration.from_nsec(-nsec).to_nsec() == -nsec
+
+    @given(times)
+    def test_to_sec_and_back(self, value: Time) -> None:
+        assert abs(Time.from_sec(value.to_sec()).to_nsec() - value.to_nsec()) < 500
+        assert value.to_time() == value.to_sec()
+
+
+class TestValues:
+    @pytest.mark.parametrize("value", [Time(1, 2), Duration(-1, 2)])
+    def test_cannot_be_changed(self, value: Any) -> None:
+        for name in ("secs", "nsecs", "other"):
+            with pytest.raises(AttributeError):
+                setattr(value, name, 5)
+
+    @pytest.mark.parametrize(
+        "value", [Time(1, 2), Duration(-1, 2), Time._raw(1, 3 * NANO), Duration._raw(-1, -5)]
+    )
+    def test_survive_copying_and_pickling(self, value: Any) -> None:
+        others = [copy.copy(value), copy.deepcopy(value)]
+        others += [pickle.loads(pickle.dumps(value, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)]
+        for other in others:
+            assert type(other) is type(value)
+            assert (other.secs, other.nsecs) == (value.secs, value.nsecs)
+
+    def test_zero(self) -> None:
+        for kind in (Time, Duration):
+            assert kind().is_zero()
+            assert not kind()
+            assert kind(0, 1)
+            assert not kind(1).is_zero()
+
+    def test_texts(self) -> None:
+        assert repr(Time(1, 2)) == "Time(secs=1, nsecs=2)"
+        assert repr(Duration(-1.5)) == "Duration(secs=-2, nsecs=500000000)"
+        assert eval(repr(Duration(-1.5))) == Duration(-1.5)
+        assert str(Time(1, 2)) == "1.000000002"
+        assert str(Duration(-1.5)) == "-1.500000000"
+        assert str(Duration(0, -1)) == "-0.000000001"
+
+
+class TestComparison:
+    def test_a_time_is_no_duration(self) -> None:
+        assert Time(1) != Duration(1)
+        assert Duration(1) != Time(1)
+        for compare in ("__lt__", "__le__", "__gt__", "__ge__"):
+            assert getattr(Time(1), compare)(Duration(1)) is NotImplemented
+            assert getattr(Duration(1), compare)(Time(1)) is NotImplemented
+        with pytest.raises(TypeError):
+            _ = Time(1) < Duration(1)  # type: ignore[operator]
+        assert Time(1) != 1
+        assert Time(1) != (1, 0)
+
+    def test_is_of_the_whole(self) -> None:
+        assert Time._raw(1, NANO) == Time(2)
+        assert hash(Time._raw(1, NANO)) == hash(Time(2))
+        assert Duration._raw(0, -1) == Duration(-1, NANO - 1)
+        assert len({Time(1), Time(1.0), Time(0, NANO)}) == 1
+
+    @pytest.mark.parametrize("values", [times, durations])
+    def test_is_that_of_nanoseconds(self, values: Any) -> None:
+        @given(values, values)
+        def check(a: Any, b: Any) -> None:
+            x, y = a.to_nsec(), b.to_nsec()
+            assert (a < b, a <= b, a > b, a >= b, a == b, a != b) == (
+                x < y, x <= y, x > y, x >= y, x == y, x != y,
+            )  # fmt: skip
+
+        check()
+
+
+class TestArithmetic:
+    @given(times, durations)
+    def test_time_and_duration(self, t: Time, d: Duration) -> None:
+        if t.to_nsec() + d.to_nsec() >= 0:
+            later = t + d
+            assert type(later) is Time
+            assert later.to_nsec() == t.to_nsec() + d.to_nsec()
+            assert d + t == later
+            assert later - d == t
+            assert later - t == d
+
+    @given(durations, durations)
+    def test_durations(self, a: Duration, b: Duration) -> None:
+        assert (a + b).to_nsec() == a.to_nsec() + b.to_nsec()
+        assert (a - b).to_nsec() == a.to_nsec() - b.to_nsec()
+        assert (-a).to_nsec() == -a.to_nsec()
+        assert +a is a
+        assert abs(a).to_nsec() == abs(a.to_nsec())
+        if b:
+            assert a // b == a.to_nsec() // b.to_nsec()
+            assert a / b == pytest.approx(a.to_nsec() / b.to_nsec())
+            assert (a % b).to_nsec() == a.to_nsec() % b.to_nsec()
+            assert divmod(a, b) == (a // b, a % b)
+
+    @given(durations, st.integers(-1000, 1000))
+    def test_whole_numbers_are_exact(self, d: Duration, n: int) -> None:
+        assert (d * n).to_nsec() == (n * d).to_nsec() == d.to_nsec() * n
+        if n:
+            assert abs((d / n).to_nsec() * n - d.to_nsec()) * 2 <= abs(n)
+
+    def test_numbers(self) -> None:
+        assert Duration(1) * 1.5 == Duration(1, NANO // 2)
+        assert 0.5 * Duration(1) == Duration(0, NANO // 2)
+        assert Duration(1) * np.float64(2) == Duration(2)
+        assert Duration(3) / 2 == Duration(1, NANO // 2)
+        assert Duration(3) / 1.5 == Duration(2)
+        # To whole seconds, as in rospy.
+        assert Duration(7.5) // 2 == Duration(3)
+        assert Duration(-7.5) // 2 == Duration(-4)
+        assert Duration(10) // 2.5 == Duration(4)
+
+    @pytest.mark.parametrize(
+        "do",
+        [
+            lambda: Time(1) + Time(1),
+            lambda: Time(1) + 1,
+            lambda: 1 + Time(1),
+            lambda: Time(1) - 1,
+            lambda: Time(1) * 2,
+            lambda: Duration(1) - Time(1),
+            lambda: Duration(1) + 1,
+            lambda: Duration(1) - 1,
+            lambda: Duration(1) * Duration(1),
+            lambda: Duration(1) * "2",
+            lambda: Duration(1) / "2",
+            lambda: Duration(1) // "2",
+            lambda: Duration(1) % 2,
+            lambda: divmod(Duration(1), 2),
+        ],
+    )
+    def test_what_makes_no_sense(self, do: Any) -> None:
+        with pytest.raises(TypeError):
+            do()
+
+    def test_division_by_zero(self) -> None:
+        for zero in (0, 0.0, Duration()):
+            with pytest.raises(ZeroDivisionError):
+                Duration(1) / zero
+            with pytest.raises(ZeroDivisionError):
+                Duration(1) // zero

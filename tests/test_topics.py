@@ -1,0 +1,48 @@
+"""Publishers and subscribers of this library with one another."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+
+import aioros1
+from aioros1.msg.std_msgs import String
+
+
+async def test_a_message_reaches_a_subscriber(make_node):
+    node = await make_node()
+    async with node.advertise("chatter", String) as pub, node.subscribe("chatter") as sub:
+        await pub.wait_for_subscribers(timeout=5)
+        pub.publish(data="hi")
+        assert await sub.get(timeout=5) == String(data="hi")
+
+
+async def test_blocked_publisher_raises_queue_full_and_send_waits(make_node):
+    node = await make_node()
+    async with (
+        node.advertise("big", "std_msgs/UInt8MultiArray", overflow="block", queue_size=2) as pub,
+        node.subscribe("big", overflow="block", queue_size=1) as sub,
+    ):
+        await pub.wait_for_subscribers(timeout=5)
+        payload = bytes(1_000_000)
+        sent = 0
+        with pytest.raises(asyncio.QueueFull):
+            while True:
+                pub.publish(data=payload[: sent + 1000])
+                sent += 1
+                await asyncio.sleep(0)
+        with pytest.raises(TimeoutError):
+            await pub.send(data=payload, timeout=0.01)
+        for length in range(sent):
+            assert len((await sub.get(timeout=5)).data) == length + 1000
+        await pub.send(data=b"last", timeout=5)
+        assert (await sub.get(timeout=5)).data == b"last"
+
+
+async def test_closed_roles_raise_closed_error(make_node):
+    node = await make_node()
+    pub = await node.advertise("chatter", String)
+    await pub.close()
+    with pytest.raises(aioros1.ClosedError):
+        pub.publish(data="late")
