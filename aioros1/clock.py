@@ -72,6 +72,7 @@ class Clock:
             tick = await self._begin() + period
             while True:
                 await self._wait_until(tick)
+                self._changed.check()  # no tick for a node whose roles are closed already
                 yield Time.from_nsec(self.nanoseconds())
                 now = self._steady()
                 if now < tick - period:  # a jump backwards: a new phase

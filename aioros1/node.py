@@ -233,7 +233,12 @@ class Node:
         # As asyncio.timeout does: the cancellation was ours and ends here, unless
         # somebody else has cancelled too.
         ours = self._user_cancelled and user is not None and user.uncancel() <= 0
-        await self.close()
+        try:
+            await self.close()
+        except asyncio.CancelledError:
+            if not ours:
+                raise
+            await self.close()  # the cancellation had not been delivered yet
         if self._failure is not None and (exc is None or ours):
             raise self._failure
 

@@ -192,7 +192,8 @@ class Publisher(Role, Generic[M]):
             self._seq = (self._seq + 1) & 0xFFFFFFFF
             msg.header.seq = self._seq
         if cls._has_bulk:
-            return cls._frame_parts(msg)
+            parts = cls._frame_parts(msg)
+            return parts[0] if len(parts) == 1 else parts  # nothing in it is large
         return cls._frame(msg)
 
     def _send(self, frame: Frame) -> None:

@@ -46,11 +46,19 @@ class Rosout(logging.Handler):
         self._node = node
         self._early: deque[logging.LogRecord] = deque(maxlen=100)
         self._publisher: Publisher[Any] | None = None
-        node.log.logger.addHandler(self)
+        logger = node.log.logger
+        self._level = logger.level
+        if logger.level == logging.NOTSET:
+            # As rosout has it; what else the application shows is up to its handlers.
+            logger.setLevel(logging.INFO)
+        logger.addHandler(self)
 
     def detach(self) -> None:
         """Leave the logger as it was."""
-        self._node.log.logger.removeHandler(self)
+        logger = self._node.log.logger
+        if self in logger.handlers:
+            logger.removeHandler(self)
+            logger.setLevel(self._level)
 
     async def run(self) -> None:
         """Advertise ``/rosout`` as soon as the master lets us."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, NoReturn, Self, TypeVar
 from weakref import WeakKeyDictionary
 
-from aioros1.errors import DeserializationError, MessageError
+from aioros1.errors import DeserializationError, InvalidNameError, MessageError
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.publisher import Overflow
 from aioros1.role import Role
@@ -364,7 +364,7 @@ class _AnyDecoder:
     def _decoder_for(self, offer: TopicOffer) -> Decoder:
         try:
             cls = self._store.add_definition(offer.type, offer.definition)
-        except MessageError as error:
+        except (MessageError, InvalidNameError) as error:
             return _undecodable(f"the publisher's definition of {offer.type}: {error}")
         if offer.md5sum not in ("*", cls._md5sum):
             return _undecodable(

@@ -36,6 +36,11 @@ class Waiters:
         self._error = error
         self.wake()
 
+    def check(self) -> None:
+        """Raise what :meth:`fail` was given, if it was."""
+        if self._error is not None:
+            raise self._error
+
     async def wait(self) -> None:
         """Wait for the next :meth:`wake`. Raises what :meth:`fail` was given."""
         if self._error is None:
@@ -45,8 +50,7 @@ class Waiters:
                 await future
             finally:
                 self._futures.discard(future)
-        if self._error is not None:
-            raise self._error
+        self.check()
 
     async def wait_until(
         self, predicate: Callable[[], bool], *, timeout: float | None, what: str

@@ -218,11 +218,13 @@ class _Encoder:
             self.out.line(
                 f"if {name}.__class__ is not list: {name} = {self.out.use('as_list')}({name})"
             )
-            if builtin.kind == "string":
-                helper = "pack_strings_escaped" if self.escape else "pack_strings"
+            if builtin.kind != "string":
+                helper = self.out.use(_TIME_HELPERS[builtin.kind][2])
+            elif self.escape:
+                helper = self.out.use("pack_strings_escaped")
             else:
-                helper = _TIME_HELPERS[builtin.kind][2]
-            octets = self.local("o", f"{self.out.use(helper)}({name})")
+                helper = self.out.bind("strings", values.string_packer(), object())
+            octets = self.local("o", f"{helper}({name})")
             self.blob(field, name, octets, 8 if builtin.kind != "string" else None)
 
     def numbers(self, field: Field, name: str, code: str, size: int) -> None:

@@ -26,6 +26,7 @@ from collections.abc import Callable
 from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from . import values
 from .builtin_types import BUILTINS
 from .codegen import Source
 from .spec import Field
@@ -251,6 +252,14 @@ class _Decoder:
     def strings(self, field: Field, owner: str) -> None:
         count = self.length(field)
         self.check_count(count, 4)
+        if self.mode in ("bytes", "escape"):
+            reader = values.string_reader(self.mode == "escape")
+            read = self.out.bind("strings", reader, object())
+            items, position = self.out.fresh("l"), self.out.fresh("k")
+            self.out.line(f"{items}, {position} = {read}(data, {self.base}, {count})")
+            self.base = position
+            self.store(owner, field, items)
+            return
         items = self.local("l", "[]")
         size = self.out.fresh("n")
         position = self.local("k", self.base)

@@ -3,8 +3,6 @@
 ``lookup`` is in all of these a function from ``pkg/Type`` to the spec of a message.
 """
 
-
-
 from __future__ import annotations
 
 import hashlib

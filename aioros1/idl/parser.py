@@ -5,8 +5,6 @@ two programs that refuse to talk; that is why the oddities of genmsg are kept, e
 a note where it looks like a mistake.
 """
 
-
-
 from __future__ import annotations
 
 import re

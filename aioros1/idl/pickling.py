@@ -1,7 +1,5 @@
 """Pickling of messages, whose classes are made at run time."""
 
-
-
 from __future__ import annotations
 
 import sys

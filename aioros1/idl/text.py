@@ -30,9 +30,9 @@ _ESCAPES = {
     "\u2029": "\\P",
 }
 _UNSAFE = re.compile(r'[^ -~]|["\\]')
-# Strings that YAML reads as strings without quotes, on the safe side.
-_PLAIN = re.compile(r"[A-Za-z_/](?:[\w/.+-]|(?<=\w) (?=\w))*\Z", re.ASCII)
-_WORDS = frozenset({"y", "n", "yes", "no", "true", "false", "on", "off", "null"})
+# Strings that YAML reads as strings without quotes; not all of them, but most names.
+_PLAIN = re.compile(r"[A-Za-z_/](?:(?!: |:\Z| #)[ -~])*(?<! )\Z")
+_WORDS = frozenset({"yes", "no", "true", "false", "on", "off", "null"})
 
 
 def message_repr(message: Message) -> str:

@@ -36,6 +36,8 @@ __all__ = [
     "pack_strings",
     "pack_strings_escaped",
     "pack_times",
+    "string_packer",
+    "string_reader",
 ]
 
 LITTLE: Final = sys.byteorder == "little"
@@ -43,6 +45,10 @@ BULK: Final = 16384
 """Payloads of at least this many bytes are worth a part of their own. Copying 16 KiB
 takes about half a microsecond, as much as one more buffer costs in a vectored write."""
 
+_REMEMBERED: Final = 4096
+"""Octets of a list of strings that are kept to be compared with the next list."""
+
+_unpack_length = struct.Struct("<I").unpack_from
 _pack_length = struct.Struct("<I").pack
 _pack_time = struct.Struct("<II").pack
 _pack_duration = struct.Struct("<ii").pack
@@ -152,6 +158,56 @@ def pack_strings(values: Any) -> bytes:
         add(_pack_length(len(text)))
         add(text)
     return b"".join(parts)
+
+
+def string_packer() -> Callable[[Any], bytes]:
+    """A :func:`pack_strings` for one field, which remembers what it packed last.
+
+    Lists of names are mostly the same from one message to the next, and comparing lists
+    of the same strings costs a tenth of packing them.
+    """
+    last: tuple[Any, bytes] = ([], b"")
+
+    def pack(values: Any) -> bytes:
+        nonlocal last
+        if values == last[0]:
+            return last[1]
+        octets = pack_strings(values)
+        if len(octets) <= _REMEMBERED:
+            last = list(values), octets
+        return octets
+
+    return pack
+
+
+def string_reader(escape: bool) -> Callable[[bytes, int, int], tuple[list[str], int]]:
+    """A function that reads the strings of one field, and remembers what it read last.
+
+    It takes the data, the position and the number of strings, and gives the list and the
+    position behind it. Running out of data is some exception, or a position too high.
+    """
+    last: tuple[int, bytes, list[str]] = (0, b"", [])
+
+    def read(data: bytes, pos: int, count: int) -> tuple[list[str], int]:
+        nonlocal last
+        if count == last[0] and data.startswith(last[1], pos):
+            return last[2].copy(), pos + len(last[1])
+        texts = []
+        add = texts.append
+        start = pos
+        for _ in range(count):
+            (size,) = _unpack_length(data, pos)
+            first = pos + 4
+            pos = first + size
+            if escape:
+                add(data[first:pos].decode("utf-8", "surrogateescape"))
+            else:
+                add(data[first:pos].decode())
+        if start < pos <= start + _REMEMBERED and pos <= len(data):
+            last = count, data[start:pos], texts.copy()
+        return texts, pos
+
+    return read
 
 
 def pack_strings_escaped(values: Any) -> bytes:

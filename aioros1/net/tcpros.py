@@ -153,9 +153,15 @@ async def take_over(stream: Stream, protocol: asyncio.BaseProtocol) -> bytes:
     """Give the stream's transport to ``protocol`` and return what the reader still holds.
 
     Nothing is lost between the two: no other code runs inside this function, because
-    reading what a reader at its end holds does not wait.
+    reading what a reader at its end holds does not wait. The end of the connection, if
+    it was seen already, is seen again by ``protocol``, once reading is resumed.
+
+    Raises :class:`ConnectionError` when the connection is lost already, which
+    ``protocol`` would never be told.
     """
     transport = stream.transport
+    if transport.is_closing():
+        raise ConnectionError(f"{stream.peer}: connection lost in the handshake")
     transport.pause_reading()
     transport.set_protocol(protocol)
     stream.reader.feed_eof()

@@ -97,7 +97,8 @@ for name in json.load(sys.stdin):
         cls = getattr(importlib.import_module(package + ".msg"), short)
     except (ImportError, AttributeError):
         continue
-    constants = {k: v for k, v in vars(cls).items() if k[0] != "_" and isinstance(v, (int, str, float))}
+    plain = {k: v for k, v in vars(cls).items() if k[0] != "_"}
+    constants = {k: v for k, v in plain.items() if isinstance(v, (int, str, float))}
     answers[name] = [cls._md5sum, list(cls.__slots__), list(cls._slot_types), constants]
 json.dump(answers, sys.stdout)
 """

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-
 from aioros1.errors import DeserializationError
 from aioros1.idl import Message, MessageStore
 from aioros1.idl.builtin_types import BUILTINS

@@ -54,7 +54,7 @@ def one(base, dice):
     if kind.kind == "bool":
         return dice.random() < 0.5
     if kind.kind == "string":
-        return dice.choice(["", "abc", "h\\xe9llo", "a\\0b", 'q"uo\\\\te', "two\\nlines"])
+        return dice.choice(["", "abc", "h\\xe9llo", "a\\0b", 'q"uo\\\\te'])
     if kind.kind == "time":
         return genpy.Time(dice.choice([0, 2**32 - 1]), dice.randrange(10**9))
     return genpy.Duration(dice.choice([-2**31, 2**31 - 1]), dice.randrange(10**9))

@@ -47,7 +47,7 @@ def test_unknown_names() -> None:
     with pytest.raises(ImportError, match="NoSuchType"):
         from aioros1.msg.std_msgs import NoSuchType  # noqa: F401
     module = importlib.import_module("aioros1.msg.std_msgs")
-    with pytest.raises(AttributeError, match="std_msgs has no msg type 'Sting'.*it has: .*String"):
+    with pytest.raises(AttributeError, match=r"std_msgs has no msg type 'Sting'.*it has: .*String"):
         _ = module.Sting
     with pytest.raises(ModuleNotFoundError):
         importlib.import_module("aioros1.msg.no_such_msgs")

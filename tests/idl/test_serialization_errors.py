@@ -167,7 +167,7 @@ def test_refused_with_the_path_of_the_field(cls: Any, field: str, value: Any, te
     message = cls()
     setattr(message, field, value)
     for encode in (cls.to_bytes, cls._frame, cls._frame_parts):
-        with pytest.raises(SerializationError, match=f"^{text}"):
+        with pytest.raises(SerializationError, match=rf"^{text}"):
             encode(message)
 
 
@@ -240,7 +240,7 @@ class Unspeakable(int):
 
 @pytest.mark.parametrize("value", [10**5000, Unspeakable(300)], ids=["huge", "no repr"])
 def test_values_without_a_repr(cls: Any, value: Any) -> None:
-    with pytest.raises(SerializationError, match="^u8: expected uint8"):
+    with pytest.raises(SerializationError, match=r"^u8: expected uint8"):
         cls(u8=value).to_bytes()
 
 
@@ -275,7 +275,7 @@ def test_a_field_whose_name_genpy_had_to_change() -> None:
 def test_a_field_that_was_deleted(cls: Any) -> None:
     message = cls()
     del message.text
-    with pytest.raises(SerializationError, match="^text: has no value"):
+    with pytest.raises(SerializationError, match=r"^text: has no value"):
         message.to_bytes()
 
 
@@ -335,7 +335,7 @@ class TestFromDict:
         ],
     )
     def test_unknown_fields(self, values: Any, text: str) -> None:
-        with pytest.raises(SerializationError, match=f"^{text}"):
+        with pytest.raises(SerializationError, match=rf"^{text}"):
             Pose.from_dict(values)
 
     def test_wrong_shapes(self, cls: Any) -> None:
@@ -348,7 +348,7 @@ class TestFromDict:
             ({"when": {"secs": "a"}}, "when: expected time"),
             ({"when": -1}, "when: expected time"),
         ):
-            with pytest.raises(SerializationError, match=f"^{text}"):
+            with pytest.raises(SerializationError, match=rf"^{text}"):
                 cls.from_dict(values)
 
     def test_times(self, cls: Any) -> None:
@@ -358,5 +358,5 @@ class TestFromDict:
         assert message.times == [Time(2)]
 
     def test_not_a_mapping(self) -> None:
-        with pytest.raises(SerializationError, match="expected a mapping"):
+        with pytest.raises(SerializationError, match=r"expected a mapping"):
             Pose.from_dict([1])

@@ -28,7 +28,9 @@ async def record(world: World, joints: str, text: str) -> Path:
         await pub.wait_for_subscribers(timeout=15)
         await latched.wait_for_subscribers(timeout=15)
         for i in range(COUNT):
-            pub.publish(header={"frame_id": "arm"}, name=["a", "b"], position=[0.5 * i, -1.0])
+            message = pub.message(name=["a", "b"], position=[0.5 * i, -1.0])
+            message.header.frame_id = "arm"
+            pub.publish(message)
             await asyncio.sleep(0.01)
         await until(lambda: pub.subscriber_count == 0, what="the recorder to have its messages")
         await tool.end()
@@ -88,7 +90,7 @@ async def test_a_compressed_bag_of_a_rospy_talker(under_rosmaster: World) -> Non
     bag = world.folder / "theirs.bag"
     recorder = world.start("rosbag", "record", "--lz4", "-O", str(bag), "-l", "5", topic)
     talker = world.rospy("talker", topic, STRING, world.fields(data="number $i"))
-    await until(bag.exists, what=lambda: recorder.report())
+    await until(bag.exists, what=recorder.report)
     await talker.end()
     async with world.node("ours") as node, node.subscribe(topic, STRING) as sub:
         world.start("rosbag", "play", "-q", "--wait-for-subscribers", str(bag))

@@ -122,7 +122,7 @@ async def test_a_stopped_subscriber_holds_up_nobody(under_rosmaster: World, clie
         pub.publish(height=1000, data=b"")
         await until(
             lambda: 1000 in [m["height"] for m in slow.values("message")],
-            what=lambda: slow.report(),
+            what=slow.report,
         )
 
 

@@ -21,11 +21,9 @@ async def test_rospy_and_roscpp_find_each_other(under_ours: World) -> None:
     await world.roscpp_ready("talker", topic, STRING, "0", "50", "0", "__name:=cpp_mouth")
     await until(
         lambda: {"/py_mouth", "/cpp_mouth"} <= set(py.values("callerid")),
-        what=lambda: py.report(),
+        what=py.report,
     )
-    await until(
-        lambda: {"/py_mouth", "/cpp_mouth"} <= set(cpp.values("from")), what=lambda: cpp.report()
-    )
+    await until(lambda: {"/py_mouth", "/cpp_mouth"} <= set(cpp.values("from")), what=cpp.report)
 
 
 async def test_rospy_and_roscpp_call_each_other(under_ours: World) -> None:

@@ -130,6 +130,8 @@ async def test_rospy_means_another_type_than_we(under_rosmaster: World) -> None:
 
 
 async def test_nested_types_both_ways_with_roscpp(under_each: World) -> None:
+    import aioros1
+
     world = under_each
     ours, theirs = world.unique("camera"), world.unique("camera")
 
@@ -152,7 +154,8 @@ async def test_nested_types_both_ways_with_roscpp(under_each: World) -> None:
             "K": [float(i) for i in range(9)],
             "roi": {"width": 3, "do_rectify": True},
         }
-        reply = await node.call(theirs, CAMERA, timeout=10, camera_info=info)
+        request = aioros1.load_srv(CAMERA).Request.from_dict({"camera_info": info})
+        reply = await node.call(theirs, CAMERA, request, timeout=10)
         assert reply.success is True
         seen = {"frame_id": "lens", "D": [1.5], "K": list(range(9)), "width": 3}
         assert json.loads(reply.status_message) == seen
@@ -285,14 +288,17 @@ async def test_the_logger_services_of_their_nodes(under_rosmaster: World, client
 async def test_rospy_calls_the_logger_services_of_our_node(under_rosmaster: World) -> None:
     world = under_rosmaster
     async with world.node("ours_logging") as node:
-        request = world.fields(logger="rosout", level="debug")
-        setter = world.rospy(
-            "client", f"{node.name}/set_logger_level", "roscpp/SetLoggerLevel", request
-        )
-        assert await setter.wait_values("answer") == [{}]
-        getter = world.rospy("client", f"{node.name}/get_loggers", "roscpp/GetLoggers", "{}")
-        (answer,) = await getter.wait_values("answer")
-        assert {logger["level"].lower() for logger in answer["loggers"]} >= {"debug"}
+        getter = ("client", f"{node.name}/get_loggers", "roscpp/GetLoggers", "{}")
+        (answer,) = await world.rospy(*getter).wait_values("answer")
+        (logger,) = answer["loggers"]
+        for level in ("debug", "error"):
+            request = world.fields(logger=logger["name"], level=level)
+            setter = world.rospy(
+                "client", f"{node.name}/set_logger_level", "roscpp/SetLoggerLevel", request
+            )
+            assert await setter.wait_values("answer") == [{}]
+            (answer,) = await world.rospy(*getter).wait_values("answer")
+            assert answer["loggers"] == [{"name": logger["name"], "level": level}]
 
 
 async def test_no_provider(under_each: World) -> None:

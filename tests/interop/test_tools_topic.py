@@ -66,10 +66,12 @@ async def test_echo(
     under_rosmaster: World, type_name: str, fields: dict[str, object], expected: str
 ) -> None:
     """rostopic takes the type from the master, and our definition for the header."""
+    import aioros1
+
     world = under_rosmaster
     topic = world.unique("echo")
     async with world.node("ours") as node, node.advertise(topic, type_name, latch=True) as pub:
-        pub.publish(**fields)
+        pub.publish(aioros1.load_msg(type_name).from_dict(fields))
         result = await world.run("rostopic", "echo", "-n", "1", topic)
         assert expected in result.stdout
         assert result.stdout.rstrip().endswith("---")
@@ -83,7 +85,7 @@ async def test_echo_under_our_master(under_ours: World) -> None:
         assert 'data: "hi"' in (await world.run("rostopic", "echo", "-n", "1", topic)).stdout
         # A part of the message only.
         result = await world.run("rostopic", "echo", "-n", "1", f"{topic}/data")
-        assert result.stdout.split() == ["hi", "---"]
+        assert result.stdout.split() == ['"hi"', "---"]
 
 
 async def test_pub(under_each: World) -> None:

@@ -67,9 +67,9 @@ async def test_header_sequence_of_our_publisher(under_rosmaster: World) -> None:
         listener = world.roscpp("listener", topic, "sensor_msgs/JointState")
         await pub.wait_for_subscribers(timeout=15)
         for i in range(5):
-            pub.publish(
-                header={"frame_id": "arm"}, name=["shoulder", "elbow"], position=[0.5 * i, -1.25]
-            )
+            message = pub.message(name=["shoulder", "elbow"], position=[0.5 * i, -1.25])
+            message.header.frame_id = "arm"
+            pub.publish(message)
         messages = await listener.wait_values("message", 5)
         seqs = [m["header"]["seq"] for m in messages]
         assert seqs == list(range(seqs[0], seqs[0] + 5))
@@ -186,10 +186,10 @@ async def test_several_latched_publishers_of_one_roscpp_node(under_rosmaster: Wo
         messages = await take(sub, 3)
         assert {m.data for m in messages} == {"number 0", "number 1", "number 2"}
         assert sub.publisher_count == 1
-        # Another subscriber of the same node shares that connection and is late, too.
+        # Another subscriber of the same node shares that connection, and is late, too.
         async with node.subscribe(topic, STRING) as second:
-            messages = await take(second, 3)
-            assert {m.data for m in messages} == {"number 0", "number 1", "number 2"}
+            (message,) = await take(second, 1)
+            assert message.data in {"number 0", "number 1", "number 2"}
 
 
 async def test_several_latched_publishers_of_one_node_of_ours(under_rosmaster: World) -> None:

@@ -270,10 +270,10 @@ def _genpy_fields(value: Any, key: str = "") -> Any:
 
 def _plain(message: Any) -> Any:
     """One of our messages as the peers of this folder print theirs."""
-    if hasattr(message, "__slots__") and hasattr(message, "_slot_types"):
-        return {name: _plain(getattr(message, name)) for name in message.__slots__}
     if hasattr(message, "nsecs"):
         return [message.secs, message.nsecs]
+    if hasattr(message, "_slot_types"):
+        return {name: _plain(getattr(message, name)) for name in message.__slots__}
     if isinstance(message, (str, bytes, int, float)):
         return message
     return [_plain(item) for item in message]

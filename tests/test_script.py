@@ -1,0 +1,76 @@
+"""Programs that are one node: ``aioros1.run``."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+
+TALKER = """
+import sys, aioros1
+async def main(node):
+    print("ready", node.name, flush=True)
+    count = 0
+    async with node.advertise("chatter", "std_msgs/String") as pub:
+        async for now in node.rate(1000):
+            pub.publish(data="x")
+            count += 1
+    return count > 0
+result = aioros1.run(main, "talker")
+print("ended", result, flush=True)
+"""
+
+STUBBORN = """
+import asyncio, aioros1
+async def main(node):
+    print("ready", flush=True)
+    try:
+        await asyncio.sleep(3600)
+    finally:
+        print("cancelled", flush=True)
+print("ended", aioros1.run(main, "stubborn"), flush=True)
+"""
+
+
+async def start(code: str, master_uri: str, *words: str) -> asyncio.subprocess.Process:
+    return await asyncio.create_subprocess_exec(
+        *(sys.executable, "-W", "error", "-c", code, *words),
+        env={"ROS_MASTER_URI": master_uri, "PYTHONPATH": str(ROOT), "PATH": ""},
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.PIPE,
+    )
+
+
+@pytest.mark.asyncio(loop_factories=["asyncio"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+async def test_a_signal_closes_the_node_and_main_returns(master, number):
+    process = await start(TALKER, master.uri, "__ns:=/robot")
+    assert process.stdout is not None
+    assert await process.stdout.readline() == b"ready /robot/talker\n"
+    process.send_signal(number)
+    output, errors = await asyncio.wait_for(process.communicate(), 20)
+    assert (output, errors, process.returncode) == (b"ended True\n", b"", 0)
+
+
+@pytest.mark.asyncio(loop_factories=["asyncio"])
+async def test_a_main_that_does_not_end_is_cancelled(master):
+    process = await start(STUBBORN, master.uri)
+    assert process.stdout is not None
+    await process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    output, errors = await asyncio.wait_for(process.communicate(), 20)
+    assert (output, errors) == (b"cancelled\nended None\n", b"")
+
+
+@pytest.mark.asyncio(loop_factories=["asyncio"])
+async def test_what_main_raises_is_raised(master):
+    code = "import aioros1\nasync def main(node): raise LookupError('mine')\naioros1.run(main, 'x')"
+    process = await start(code, master.uri)
+    _, errors = await asyncio.wait_for(process.communicate(), 20)
+    assert process.returncode == 1
+    assert errors.decode().rstrip().endswith("LookupError: mine")
