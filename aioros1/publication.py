@@ -41,7 +41,7 @@ class Publication:
         self.publishers: list[Publisher[Any]] = []
         self.changed = Waiters()
         """Woken when a connection comes or goes, and when a queue gets shorter."""
-        self.bytes_published = 0
+        self._bytes_of_closed = 0
         self._node = node
         # Tuples that are replaced, not changed: writing to a connection may end it or
         # slow it down while we walk through them.
@@ -71,6 +71,16 @@ class Publication:
         return len(self._open) + len(self._slow)
 
     @property
+    def bytes_published(self) -> int:
+        """What all publishers have published so far, closed ones too."""
+        return self._bytes_of_closed + sum(each.stats.bytes for each in self.publishers)
+
+    @property
+    def is_congested(self) -> bool:
+        """Whether messages wait in the queue of any connection."""
+        return bool(self._slow)
+
+    @property
     def is_drained(self) -> bool:
         """Whether the kernel has taken everything that was published."""
         self._flush()
@@ -91,6 +101,12 @@ class Publication:
         for publisher in self.publishers:
             fields.update(publisher.options.headers or {})
         return fields
+
+    def remove(self, publisher: Publisher[Any]) -> None:
+        """One publisher less; what it has published still goes out."""
+        self.publishers.remove(publisher)
+        self._bytes_of_closed += publisher.stats.bytes
+        self.changed.wake()
 
     # sending
 

@@ -71,6 +71,7 @@ class Publisher(Role, Generic[M]):
         self.latched: Frame | None = None
         """The encoded message that new subscribers get first, if latching."""
         self._publication = publication
+        self._blocks = options.overflow == "block"
         self._seq = 0
 
     @property
@@ -118,8 +119,10 @@ class Publisher(Role, Generic[M]):
         :class:`~aioros1.ClosedError`, and with ``overflow="block"``
         :class:`asyncio.QueueFull` when a subscriber has no room; then nobody got it.
         """
+        if not self._is_open:
+            raise self._closed_error()
         frame = self._encode(msg, fields)
-        if self.options.overflow == "block":
+        if self._blocks and self._publication.is_congested:
             self._require_room()
         self._send(frame)
 
@@ -129,7 +132,7 @@ class Publisher(Role, Generic[M]):
         Raises as :meth:`publish`. ``buffer`` may be changed afterwards.
         """
         self._check_open()
-        if self.options.overflow == "block":
+        if self._blocks:
             self._require_room()
         self._send(frame_parts(buffer, join=JOIN))
 
@@ -144,9 +147,10 @@ class Publisher(Role, Generic[M]):
         Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds;
         then, and when it is cancelled, the message was not published.
         """
-        self._check_open()
+        if not self._is_open:
+            raise self._closed_error()
         publication = self._publication
-        if not publication.has_room(self):
+        if publication.is_congested and not publication.has_room(self):
             await self._wait_until(
                 lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
             )
@@ -184,7 +188,6 @@ class Publisher(Role, Generic[M]):
                 self._check_open()
 
     def _encode(self, msg: Any, fields: dict[str, Any]) -> Frame:
-        self._check_open()
         cls = self.message_class
         if type(msg) is not cls or fields:
             msg = message_from(cls, msg, fields)
@@ -193,15 +196,15 @@ class Publisher(Role, Generic[M]):
             msg.header.seq = self._seq
         if cls._has_bulk:
             parts = cls._frame_parts(msg)
-            return parts[0] if len(parts) == 1 else parts  # nothing in it is large
+            if len(parts) > 1:
+                return parts
+            return bytes(parts[0])  # nothing in it is large
         return cls._frame(msg)
 
     def _send(self, frame: Frame) -> None:
-        size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
         stats = self.stats
         stats.messages += 1
-        stats.bytes += size
-        self._publication.bytes_published += size
+        stats.bytes += len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
         if self.options.latch:
             self.latched = frame
         self._publication.send(frame, self)

@@ -83,7 +83,7 @@ class Roles:
         try:
             await publication.registration.acquire()
         except BaseException:
-            publication.publishers.remove(publisher)
+            publication.remove(publisher)
             _discard_unused(self.publications, publication)
             raise
         return await self._opened(publisher)
@@ -193,8 +193,7 @@ class Roles:
         self.open.clear()
 
     async def close_publisher(self, publisher: Publisher[Any], publication: Publication) -> None:
-        publication.publishers.remove(publisher)
-        publication.changed.wake()
+        publication.remove(publisher)
         if not publication.publishers:
             await publication.close_links(self._node.timeouts.close)
         await self._release(publication.registration)

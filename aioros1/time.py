@@ -46,8 +46,9 @@ class _TimeValue:
 
     def __init__(self, secs: int | float = 0, nsecs: int = 0) -> None:
         # Anything with __index__ is a whole number: NumPy's integers too.
-        if hasattr(secs, "__index__"):
-            total = index(secs) * _SECOND + index(nsecs)
+        whole = getattr(secs, "__index__", None)
+        if whole is not None:
+            total = whole() * _SECOND + index(nsecs)
         elif nsecs:
             raise ValueError("nsecs cannot be given with a fraction of seconds")
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import time
 
 import pytest
@@ -38,9 +39,8 @@ async def test_rate_keeps_its_phase_and_skips_what_was_missed(make_node, master)
         following.cancel()
     # Ten ticks a second, a clock that shows every second of them: one each time.
     assert len(ticks) >= 9
-    assert all(
-        later - earlier >= Duration(0, 100_000_000) for earlier, later in zip(ticks, ticks[1:])
-    )
+    gaps = [later - earlier for earlier, later in itertools.pairwise(ticks)]
+    assert min(gaps) >= Duration(0, 100_000_000)
     await asyncio.gather(following, return_exceptions=True)
     await rate.aclose()
 

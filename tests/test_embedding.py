@@ -143,7 +143,7 @@ async def test_closing_when_the_master_is_gone_frees_everything():
         sub = await node.subscribe("chatter", String)
         psub = await node.subscribe_param("/p", default=1)
     await node.close()
-    assert not (pub.is_open or sub.is_open or psub.is_open)
+    assert [role.is_open for role in (pub, sub, psub)] == [False] * 3
     assert [message async for message in sub] == []
 
 

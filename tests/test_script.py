@@ -14,11 +14,12 @@ ROOT = Path(__file__).parent.parent
 TALKER = """
 import sys, aioros1
 async def main(node):
-    print("ready", node.name, flush=True)
     count = 0
     async with node.advertise("chatter", "std_msgs/String") as pub:
         async for now in node.rate(1000):
             pub.publish(data="x")
+            if not count:
+                print("ready", node.name, flush=True)
             count += 1
     return count > 0
 result = aioros1.run(main, "talker")

@@ -132,9 +132,11 @@ def _scalar(builtin: Builtin, value: Any, path: str) -> Any:
         return number
     if builtin.kind == "float":
         if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
-            if not hasattr(value, "__index__"):
+            # An integer of a kind that is no number to Python otherwise.
+            index = getattr(value, "__index__", None)
+            if index is None:
                 _wrong(path, builtin.name, value)
-            value = value.__index__()
+            value = index()
         try:
             number = float(value)
             values.as_numbers(builtin.code)([number])

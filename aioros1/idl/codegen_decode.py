@@ -30,7 +30,6 @@ from . import values
 from .builtin_types import BUILTINS
 from .codegen import Source
 from .spec import Field
-from .values import LITTLE
 
 if TYPE_CHECKING:
     from .message import Message
@@ -55,7 +54,7 @@ class _Decoder:
 
     def __init__(self, out: Source, mode: Mode, base: str, row: str | None = None) -> None:
         self.out = out
-        self.mode = mode
+        self.mode: Mode = mode
         self.base = base
         self.row = row  # an unpacked row to take the run from, in place of `data`
         self.codes: list[str] = []
@@ -164,7 +163,7 @@ class _Decoder:
         return f"{part}.tobytes()" if self.mode == "view" else part
 
     def numbers(self, code: str, octets: str) -> str:
-        if not LITTLE:
+        if not values.LITTLE:
             return f"{self.out.use('load_array')}({code!r}, {octets})"
         if self.mode == "views":
             return f"{octets}.cast({code!r})"
@@ -185,7 +184,7 @@ class _Decoder:
             start, stop = self.extent(builtin.size)
             if builtin.octets:
                 self.store(owner, field, self.octets(start, stop))
-            elif self.mode == "view" and LITTLE:
+            elif self.mode == "view" and values.LITTLE:
                 # One copy: array(code, memoryview) would take the octets for numbers.
                 name = self.local("a", f"array({builtin.code!r})")
                 self.out.line(f"{name}.frombytes(data[{start}:{stop}])")
@@ -229,7 +228,7 @@ class _Decoder:
             if builtin.kind in ("int", "float"):
                 value = (
                     f"array({builtin.code!r}, {name})"
-                    if LITTLE
+                    if values.LITTLE
                     else f"{self.out.use('load_array')}({builtin.code!r}, {name})"
                 )
             else:

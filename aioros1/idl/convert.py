@@ -64,7 +64,7 @@ def _plain(value: Any) -> Any:
         isinstance(value, (memoryview, array)) and _item_code(value) == "B"
     ):
         return bytes(value)
-    if hasattr(value, "tolist"):
+    if isinstance(value, (memoryview, array)) or hasattr(value, "tolist"):
         return value.tolist()
     if hasattr(value, "nsecs"):
         return {"secs": value.secs, "nsecs": value.nsecs}

@@ -145,14 +145,22 @@ def _has_bulk(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> bool:
 def _constructor(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> Callable[..., None]:
     """Write ``__init__``: parameters by name with plain defaults are the quickest there are.
 
-    Names of the generated code begin with an underscore, which those of fields cannot.
+    Names of the generated code begin with an underscore, which those of fields cannot: a
+    field by the name of a builtin would hide it.
     """
-    names: dict[str, Any] = {"_unset": _UNSET, "_array": array}
+    names: dict[str, Any] = {
+        "_unset": _UNSET,
+        "_array": array,
+        "_bool": bool,
+        "_bytes": bytes,
+        "_range": range,
+        "_setattr": setattr,
+    }
     parameters, body, given = [], [], []
     for number, field in enumerate(spec.fields):
         default, made = _default(field, nested, names, number)
         if iskeyword(field.name):
-            body.append(f"    setattr(_self, {field.name!r}, {made or default})")
+            body.append(f"    _setattr(_self, {field.name!r}, {made or default})")
         elif made is not None:
             parameters.append(f"{field.name}=_unset")
             body.append(
@@ -167,7 +175,7 @@ def _constructor(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> Call
     lines = [
         f"def __init__({signature}):",
         "    if _values:",
-        f"        return _self._set_positional(_values, bool({' or '.join([*given, '_others'])}))",
+        f"        return _self._set_positional(_values, _bool({' or '.join([*given, '_others'])}))",
         *body,
         "    if _others: _self._set_unusual(_others)",
     ]
@@ -192,15 +200,15 @@ def _default(
         return constant, None
     if builtin is None:
         names[f"_C{number}"] = nested[field.base_type]
-        return "", "[]" if length is None else f"[_C{number}() for _ in range({length})]"
+        return "", "[]" if length is None else f"[_C{number}() for _ in _range({length})]"
     if builtin.octets:
         # Made where it is used, should it be large; there are classes nobody fills in.
         if length is None or length <= 4096:
             names[constant] = bytes(length or 0)
             return constant, None
-        return "", f"bytes({length})"
+        return "", f"_bytes({length})"
     if builtin.kind in ("int", "float"):
-        octets = "" if length is None else f", bytes({length * builtin.size})"
+        octets = "" if length is None else f", _bytes({length * builtin.size})"
         return "", f"_array({builtin.code!r}{octets})"
     if length is None:
         return "", "[]"

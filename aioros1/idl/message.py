@@ -112,7 +112,7 @@ class Message(metaclass=MessageType):
 
         Raises :class:`DeserializationError` when they are too few or too many.
         """
-        data = buffer if buffer.__class__ is bytes else memoryview(buffer).tobytes()
+        data = buffer if isinstance(buffer, bytes) else memoryview(buffer).tobytes()
         message: _M = cls._decode_exact(data, 0, len(data))
         return message
 

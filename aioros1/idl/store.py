@@ -150,6 +150,7 @@ class MessageStore:
             }
             self._services.clear()
             self._actions.clear()
+            self._definitions.clear()
 
     def add_definition(self, type: str, full_text: str) -> _MessageClass:
         """The class for a definition with all it needs, as in a connection header or a bag.
@@ -159,6 +160,15 @@ class MessageStore:
         stands beside those of the store: loading by name finds it only when there is
         nothing else by that name.
         """
+        with self._lock:
+            # Every connection to a topic brings the same text again.
+            found = self._definitions.get((type, full_text))
+            if found is None:
+                found = self._define(type, full_text)
+                _remember(self._definitions, (type, full_text), found)
+            return found
+
+    def _define(self, type: str, full_text: str) -> _MessageClass:
         texts = digest.split_full_text(type, full_text)
         made: dict[str, _MessageClass] = {}
 
@@ -173,21 +183,14 @@ class MessageStore:
             return made[name]
 
         cls = load(type, ())
-        with self._lock:
-            key = (type, cls._md5sum)
-            if key in self._definitions:
-                return self._definitions[key]
-            try:
-                known: _MessageClass | None = self._load(type, ())
-            except (MessageNotFoundError, MessageSpecError):
-                known = None
-            if known is not None and known._md5sum == cls._md5sum:
+        for (name, _), known in self._definitions.items():
+            if name == type and known._md5sum == cls._md5sum:
                 return known
-            while len(self._definitions) >= _MAX_DEFINITIONS:
-                # They come from peers, of whom one may have no end of them.
-                del self._definitions[next(iter(self._definitions))]
-            self._definitions[key] = cls
+        try:
+            own = self._load(type, ())
+        except (MessageNotFoundError, MessageSpecError):
             return cls
+        return own if own._md5sum == cls._md5sum else cls
 
     # -- looking ----------------------------------------------------------------------
 
@@ -349,6 +352,15 @@ class MessageStore:
         return MessageNotFoundError(
             f"no definition ({files}) of {type}{_needed_by(chain)}; searched: {places}"
         )
+
+
+def _remember(
+    definitions: dict[tuple[str, str], _MessageClass], key: tuple[str, str], cls: _MessageClass
+) -> None:
+    """Keep a definition, and drop the oldest: peers send them, and one may have no end of them."""
+    while len(definitions) >= _MAX_DEFINITIONS:
+        del definitions[next(iter(definitions))]
+    definitions[key] = cls
 
 
 def _needed_by(chain: _Chain) -> str:

@@ -192,7 +192,7 @@ def string_reader(escape: bool) -> Callable[[bytes, int, int], tuple[list[str], 
         nonlocal last
         if count == last[0] and data.startswith(last[1], pos):
             return last[2].copy(), pos + len(last[1])
-        texts = []
+        texts: list[str] = []
         add = texts.append
         start = pos
         for _ in range(count):

@@ -7,17 +7,17 @@ and our own client keep a connection per peer and send request after request ove
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import inspect
 import logging
 import zlib
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from aiohttp import web
 
 from aioros1.net.hosts import bind_sockets
+from aioros1.net.xmlrpc_http import Answer, Connection, Quiet, plain
 from aioros1.options import Limits
 from aioros1.wire.xmlrpc import (
     XmlRpcError,
@@ -26,9 +26,6 @@ from aioros1.wire.xmlrpc import (
     encode_fault,
     encode_response,
 )
-
-if TYPE_CHECKING:
-    from aiohttp.typedefs import LooseHeaders
 
 __all__ = ["Method", "Reply", "XmlRpcServer"]
 
@@ -86,10 +83,11 @@ class XmlRpcServer:
         self._log = log if log is not None else _LOG
         self._http: web.Server | None = None
         self._listeners: list[asyncio.Server] = []
-        self._connections: set[_Connection] = set()
+        self._connections: set[Connection] = set()
         # The requests in progress, and the connections that have had one.
         self._running: set[asyncio.Task[Any]] = set()
         self._serving: set[asyncio.Task[Any]] = set()
+        self._sweeper: asyncio.TimerHandle | None = None
         self._port = 0
 
     @property
@@ -108,12 +106,12 @@ class XmlRpcServer:
         sockets = bind_sockets(host, port)
         self._port = int(sockets[0].getsockname()[1])
         self._http = http = web.Server(self._handle)
-        quiet: Any = _Quiet(self._log)
+        self._sweep()
+        quiet: Any = Quiet(self._log)
 
-        def connection() -> _Connection:
-            return _Connection(
+        def connection() -> Connection:
+            return Connection(
                 self._connections,
-                self._limits.xmlrpc_timeout,
                 http,
                 loop=loop,
                 keepalive_timeout=KEEP_ALIVE,
@@ -143,6 +141,8 @@ class XmlRpcServer:
         http = self._http
         if http is None:
             return
+        if self._sweeper is not None:
+            self._sweeper.cancel()
         http.pre_shutdown()
         # aiohttp loses sight of the tasks of a connection whose peer has gone, and would
         # leave them behind; so they are ended here.
@@ -160,12 +160,20 @@ class XmlRpcServer:
             await asyncio.sleep(0)
         await asyncio.sleep(0)
 
+    def _sweep(self) -> None:
+        """Close what has waited too long for the head of a request; one timer for all."""
+        loop = asyncio.get_running_loop()
+        patience = self._limits.xmlrpc_timeout
+        for connection in list(self._connections):
+            connection.close_if_late(loop.time() - patience)
+        self._sweeper = loop.call_later(patience / 4, self._sweep)
+
     # ------------------------------------------------------------------ one request
 
     async def _handle(self, request: web.BaseRequest) -> web.StreamResponse:
         connection = request.protocol
         task = asyncio.current_task()
-        assert isinstance(connection, _Connection)
+        assert isinstance(connection, Connection)
         assert task is not None
         self._running.add(task)
         connection.request_begins()
@@ -176,15 +184,19 @@ class XmlRpcServer:
             refusal = self._refuse(request)
             if refusal is not None:
                 return refusal
-            try:
-                async with asyncio.timeout(self._limits.xmlrpc_timeout):
-                    body = await self._read(request)
-            except TimeoutError:
-                return _plain(408, "the request did not arrive in time", close=True)
+            content = request.content
+            if content.is_eof() and "Content-Encoding" not in request.headers:
+                body: bytes | web.Response = content.read_nowait()  # it is all there already
+            else:
+                try:
+                    async with asyncio.timeout(self._limits.xmlrpc_timeout):
+                        body = await self._read(request)
+                except TimeoutError:
+                    return plain(408, "the request did not arrive in time", close=True)
             if not isinstance(body, bytes):
                 return body
-            answer, afters = await self._answer(body)
-            return await self._send(request, connection, answer, afters)
+            document, afters = await self._answer(body)
+            return await self._send(request, document, afters)
         finally:
             connection.request_ends()
             self._running.discard(task)
@@ -192,20 +204,20 @@ class XmlRpcServer:
     def _refuse(self, request: web.BaseRequest) -> web.Response | None:
         headers = request.headers
         if request.path not in _PATHS:
-            return _plain(404, "XML-RPC is served at / and /RPC2")
+            return plain(404, "XML-RPC is served at / and /RPC2")
         if request.method != "POST":
-            return _plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
+            return plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
         if "Transfer-Encoding" in headers:
             return None
         length = headers.get("Content-Length")
         if length is None:
-            return _plain(411, "a Content-Length is needed", close=True)
+            return plain(411, "a Content-Length is needed", close=True)
         if int(length) > self._limits.xmlrpc_bytes:
             return self._too_large()
         return None
 
     def _too_large(self) -> web.Response:
-        return _plain(413, f"more than {self._limits.xmlrpc_bytes} bytes", close=True)
+        return plain(413, f"more than {self._limits.xmlrpc_bytes} bytes", close=True)
 
     async def _read(self, request: web.BaseRequest) -> bytes | web.Response:
         """The body, inflated if need be; or the answer that refuses it."""
@@ -214,7 +226,7 @@ class XmlRpcServer:
             request.writer.output_size = 0
         coding = request.headers.get("Content-Encoding", "identity").strip().lower()
         if coding not in ("", "identity", "gzip", "x-gzip"):
-            return _plain(415, f"unknown Content-Encoding: {coding}", close=True)
+            return plain(415, f"unknown Content-Encoding: {coding}", close=True)
         inflate = zlib.decompressobj(wbits=31) if coding.endswith("gzip") else None
         room = self._limits.xmlrpc_bytes
         chunks: list[bytes] = []
@@ -224,42 +236,30 @@ class XmlRpcServer:
                 try:
                     chunk = inflate.decompress(chunk, room + 1)  # bounds a bomb of zeros
                 except zlib.error as error:
-                    return _plain(400, f"not gzip: {error}", close=True)
+                    return plain(400, f"not gzip: {error}", close=True)
             room -= len(chunk)
             if room < 0:
                 return self._too_large()
             chunks.append(chunk)
         if inflate is not None and not inflate.eof:
-            return _plain(400, "the gzip data ends early", close=True)
+            return plain(400, "the gzip data ends early", close=True)
         return chunks[0] if len(chunks) == 1 else b"".join(chunks)
 
     async def _send(
-        self,
-        request: web.BaseRequest,
-        connection: _Connection,
-        answer: bytes,
-        afters: list[Callable[[], object]],
-    ) -> web.StreamResponse:
-        response = web.Response(body=answer, content_type="text/xml")
+        self, request: web.BaseRequest, document: bytes, afters: list[Callable[[], object]]
+    ) -> Answer:
+        answer = Answer(document, patience=self._limits.xmlrpc_timeout, flush=bool(afters))
+        if not afters:
+            return answer
         try:
-            # Sent here and not by aiohttp, which would wait for ever for a peer that
-            # asks for megabytes and then reads nothing.
-            async with asyncio.timeout(self._limits.xmlrpc_timeout):
-                await response.prepare(request)
-                await response.write_eof()
-                if afters and (transport := request.transport) is not None:
-                    # Now a drain returns when the kernel has taken every byte.
-                    transport.set_write_buffer_limits(high=0)
-                    await request.writer.drain()
-        except TimeoutError:
-            connection.abort()
+            await answer.prepare(request)
         finally:
             for after in afters:
                 try:
                     after()
                 except Exception:
                     self._log.exception("a consequence of an XML-RPC request failed")
-        return response
+        return answer
 
     # ------------------------------------------------------------------ one call
 
@@ -274,7 +274,7 @@ class XmlRpcServer:
                 value = await self._multicall(params, afters)
             else:
                 value = await self._call(name, params, afters)
-            return encode_response(value), afters
+            return encode_response(value, max_depth=self._limits.xmlrpc_depth), afters
         except XmlRpcFault as fault:
             return encode_fault(fault.code, fault.text), afters
         except (TypeError, ValueError, OverflowError) as error:
@@ -357,83 +357,3 @@ def _arity(method: Method) -> tuple[int, float]:
 
 def _range(least: int, most: float) -> str:
     return f"{least}" if least == most else f"{least} to {most:g}"
-
-
-def _plain(
-    status: int, text: str, headers: LooseHeaders | None = None, *, close: bool = False
-) -> web.Response:
-    response = web.Response(status=status, text=text + "\n", headers=headers)
-    if close:
-        response.force_close()
-    return response
-
-
-class _Connection(web.RequestHandler):
-    """aiohttp's connection, with a limit to how long the head of a request may take.
-
-    aiohttp itself waits as long for the rest of a request line as for the next request.
-    """
-
-    __slots__ = ("_alive", "_busy", "_head_timeout", "_head_timer")
-
-    def __init__(
-        self, alive: set[_Connection], head_timeout: float, manager: web.Server, **options: Any
-    ) -> None:
-        super().__init__(manager, **options)
-        self._alive = alive
-        self._busy = False
-        self._head_timeout = head_timeout
-        self._head_timer: asyncio.TimerHandle | None = None
-
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        self._alive.add(self)
-        super().connection_made(transport)
-
-    def connection_lost(self, exc: BaseException | None) -> None:
-        self._stop_timer()
-        super().connection_lost(exc)
-        self._alive.discard(self)
-
-    def data_received(self, data: bytes) -> None:
-        super().data_received(data)
-        if not self._busy and self._head_timer is None:
-            loop = asyncio.get_running_loop()
-            self._head_timer = loop.call_later(self._head_timeout, self._head_is_late)
-
-    def request_begins(self) -> None:
-        """The head of a request is complete."""
-        self._busy = True
-        self._stop_timer()
-
-    def request_ends(self) -> None:
-        """The request has been answered, or is about to be."""
-        self._busy = False
-
-    def abort(self) -> None:
-        """Close at once; what was not sent yet is lost."""
-        if self.transport is not None:
-            self.transport.abort()
-
-    def _head_is_late(self) -> None:
-        self._head_timer = None
-        if self.transport is not None:
-            self.transport.write(
-                b"HTTP/1.1 408 Request Timeout\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
-            )
-        self.force_close()
-
-    def _stop_timer(self) -> None:
-        if self._head_timer is not None:
-            self._head_timer.cancel()
-            self._head_timer = None
-
-
-class _Quiet(logging.LoggerAdapter[Any]):
-    """What aiohttp calls an exception is a peer that sent nonsense or went away."""
-
-    def __init__(self, log: logging.Logger | logging.LoggerAdapter[Any]) -> None:
-        super().__init__(log, {})
-
-    def exception(self, msg: object, *args: object, **kwargs: Any) -> None:
-        with contextlib.suppress(Exception):
-            self.debug(msg, *args, **kwargs)

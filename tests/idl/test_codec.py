@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
+import sys
 import tracemalloc
 from array import array
 from typing import Any
@@ -147,6 +148,36 @@ def test_strings_that_are_not_utf8_among_others() -> None:
     assert cls._frame(message) == struct.pack("<I", len(octets)) + octets
 
 
+def test_lists_of_strings_that_repeat_or_change() -> None:
+    cls = define("string[] a\nstring[2] b\nint8 c")
+    seen = []
+    for names in (["x", "yy"], ["x", "yy"], ["x", "zz"], ["x"], [], ["x", "yy", "\udcff"], ["x"]):
+        message = cls(names, ["p", "q"], 5)
+        octets = message.to_bytes()
+        for _ in range(2):
+            back = cls.from_bytes(octets)
+            assert back == message
+            seen.append((back, names))
+        message.a.append("more")
+        assert cls.from_bytes(message.to_bytes()).a == [*names]
+        message.a.pop()
+    for back, names in seen:
+        assert back.a == names
+        back.a.append("own")
+        back.a.pop()
+    # What has changed since it was packed last is packed anew, whoever changed it.
+    names = ["a", "b"]
+    message = cls(names, names, 5)
+    message.to_bytes()
+    names[1] = "c"
+    assert cls.from_bytes(message.to_bytes()).b == ["a", "c"]
+    message.b = (b"a", b"c")
+    assert cls.from_bytes(message.to_bytes()).b == ["a", "c"]
+    octets = message.to_bytes()
+    with pytest.raises(DeserializationError):
+        cls.from_bytes(octets[:-4])
+
+
 # definition, octets in hexadecimal, the text of the error
 BROKEN: list[tuple[str, str, str]] = [
     ("int32 a", "000000", "p/Type.a: 4 bytes expected, 3 left at offset 0"),
@@ -258,6 +289,30 @@ def test_messages_with_views_can_be_used_like_others() -> None:
     for other in (copy.deepcopy(message), pickle.loads(pickle.dumps(message))):
         assert other == plain
         assert type(other.ranges) is array
+
+
+def test_arrays_are_swapped_where_the_machine_is_not_little_endian(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    text = "int16[] a\nfloat64[2] b\nint16 c"
+    wire = define(text)(a=[1, 2], b=[1, 2], c=1).to_bytes()
+    if sys.byteorder == "little":
+        # Pretend: what should be swapped for the wire shows as swapped.
+        monkeypatch.setattr("aioros1.idl.values.LITTLE", False)
+        wire = b"\2\0\0\0\0\1\0\2" + struct.pack(">dd", 1, 2) + b"\1\0"
+    cls = define(text)
+    values = [1, 2], array("h", [1, 2]), memoryview(array("h", [1, 2]))
+    for value in values:
+        message = cls(a=value, b=[1, 2], c=1)
+        assert message.to_bytes() == wire
+        assert cls.from_bytes(wire) == message
+        for decode in (cls._decode_view, cls._decode_views):
+            assert decode(memoryview(wire), 0, len(wire)) == message
+    assert cls(a=(1, 2), b=Odd([1.0, 2.0]), c=1).to_bytes() == wire
+
+
+class Odd(list):  # type: ignore[type-arg]
+    """A list, if not exactly."""
 
 
 class TestParts:

@@ -16,7 +16,7 @@ from aioros1.idl.builtin_types import BUILTINS
 from aioros1.time import Duration, Time
 
 LIMITS = settings(
-    max_examples=150,
+    max_examples=100,
     deadline=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )

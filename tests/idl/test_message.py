@@ -100,6 +100,16 @@ class TestConstruction:
         assert repr(message) == "Type(from=1, None=0, self=3)"
         assert getattr(message.replace(**{"from": 9}), "from") == 9
 
+    def test_names_of_builtins(self) -> None:
+        cls = define(
+            "std_msgs/String[2] range\nfloat32[2] bytes\nuint8[5000] bool\nint8 setattr\n"
+            "string len\nint32[] list\nbool[] map\nstring[] str\ntime new\nint8 array\nint8 from"
+        )
+        message = cls(setattr=1, len="x", str=["y"], **{"from": 3})
+        assert cls.from_bytes(message.to_bytes()) == message
+        with pytest.raises(TypeError, match="either by position or by name"):
+            cls(*[None] * 11, setattr=5)
+
     def test_names_of_methods(self) -> None:
         cls = define(
             "int32 serialize\nint32 to_bytes\nint32 replace\nint32 data\nint32 deserialize"

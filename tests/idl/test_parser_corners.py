@@ -86,8 +86,10 @@ CORNERS: list[tuple[str, str, str, str | None]] = [
     (
         "msg",
         "all built-in types",
-        "bool a\nint8 b\nuint8 c\nint16 d\nuint16 e\nint32 f\nuint32 g\n"
-        "int64 h\nuint64 i\nfloat32 j\nfloat64 k\nstring l\ntime m\nduration n\nchar o\nbyte p",
+        (
+            "bool a\nint8 b\nuint8 c\nint16 d\nuint16 e\nint32 f\nuint32 g\n"
+            "int64 h\nuint64 i\nfloat32 j\nfloat64 k\nstring l\ntime m\nduration n\nchar o\nbyte p"
+        ),
         "2ccdfa572641ce79e8de3d105bbece15",
     ),
     (

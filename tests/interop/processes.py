@@ -93,6 +93,11 @@ class Process:
         return self._popen.poll()
 
     @property
+    def is_alive(self) -> bool:
+        """Whether it, or what it has started, still runs."""
+        return self.code is None or _group_is_alive(self.pid)
+
+    @property
     def stdout(self) -> str:
         return self._out.read_text(errors="replace")
 
@@ -195,20 +200,29 @@ class Process:
                 self._popen.stdin.close()
 
 
+def _group_is_alive(group: int) -> bool:
+    """Whether a process of the group runs, and is not just waiting to be reaped."""
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, group_of_it = path.read_text().rpartition(")")[2].split()[:3]
+        except (OSError, ValueError):
+            continue
+        if int(group_of_it) == group and state not in "ZX":
+            return True
+    return False
+
+
 async def end_all(processes: Sequence[Process]) -> None:
     """End all of ``processes``, side by side."""
     for process in processes:
         process.close()
     for number, patience in GRACE:
-        running = [process for process in processes if process.code is None]
+        running = [process for process in processes if process.is_alive]
         if not running:
             break
         for process in running:
             process.signal(number)
         for _ in range(round(patience / POLL)):
-            if all(process.code is not None for process in running):
+            if not any(process.is_alive for process in running):
                 break
             await asyncio.sleep(POLL)
-    for process in processes:
-        # What a wrapper script started may outlive it.
-        process.signal(signal.SIGKILL)

@@ -175,8 +175,8 @@ async def test_the_cache_of_rospy(under_each: World) -> None:
         await reads({"gain": 2})
         await node.set_param(key, {"gain": 3, "more": [1]})
         await reads({"gain": 3, "more": [1]})
-        await world.run("rosparam", "set", f"{key}/deep", "{a: {b: 4}}")
-        await reads({"gain": 3, "more": [1], "deep": {"a": {"b": 4}}})
+        await world.run("rosparam", "set", f"{key}/gain", "4")
+        await reads({"gain": 4, "more": [1]})
 
 
 async def test_roscpp_operations(under_each: World) -> None:

@@ -284,7 +284,7 @@ int latch_many(ros::NodeHandle& handle, const Args& args)
   std::vector<ros::Publisher> publishers;
   for (int i = 0; i < std::stoi(args.at(1)); ++i)
   {
-    publishers.push_back(handle.advertise<std_msgs::String>(args.at(0), 1, true));
+    publishers.push_back(handle.advertise<std_msgs::String>(args.at(0), 10, true));
     std_msgs::String message;
     fill(message, i);
     publishers.back().publish(message);
