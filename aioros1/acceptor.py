@@ -89,7 +89,14 @@ class Acceptor:
 
     async def _serve_topic(self, stream: Stream, server: Server, publication: Publication) -> None:
         node = self._node
-        header = server.accept_topic(node.name, publication.offer(), publication.headers())
+        offer = publication.offer()
+        header = server.accept_topic(node.name, offer, publication.headers())
+        theirs = server.header.get("type", "*")
+        if theirs not in ("*", offer.type):
+            node.log.warning(
+                "%s subscribes to %s as %s, but it is %s; accepted, as their md5sums are the same",
+                *(server.caller_id, offer.topic, theirs, offer.type),
+            )
         info = connection_info(stream, publication.name, "o", server.caller_id, server.header)
         link = OutgoingLink(stream, info, publication, stall=node.timeouts.stall)
         stream.writer.write(header)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from aioros1.idl import Message, convert
+from aioros1.idl import Message, convert, from_dict
 
 __all__ = ["message_from"]
 
@@ -18,6 +18,8 @@ def message_from(cls: type[Message], message: Any, fields: Mapping[str, Any]) ->
     unknown fields, :class:`~aioros1.SerializationError` for a message of another type.
     """
     if message is None:
+        if any(isinstance(value, dict) for value in fields.values()):
+            return from_dict(cls, fields)
         return cls(**fields)
     if fields:
         raise TypeError(

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from aioros1.errors import MasterError, MasterUnreachable
-from aioros1.triple import call_triple
+from aioros1.triple import as_it_is, call_triple
 
 if TYPE_CHECKING:
     from aioros1.net.xmlrpc_client import XmlRpcClient
 
-__all__ = ["MasterProxy", "SystemState", "TopicType"]
+__all__ = ["MasterProxy", "SystemState", "TopicType", "topic_types"]
+
+T = TypeVar("T")
 
 
 class TopicType(NamedTuple):
@@ -43,11 +46,14 @@ class MasterProxy:
         self.last_seen: float | None = None
         """When the master last answered, by :func:`time.monotonic`."""
 
-    async def call(self, method: str, *params: Any) -> Any:
-        """Any method of the master's; the caller id is put in front."""
+    async def call(self, method: str, *params: Any, read: Callable[[Any], T] = as_it_is) -> T:
+        """Any method of the master's; the caller id is put in front.
+
+        ``read`` makes what is returned of the value that the master answers.
+        """
         params = (self.caller_id, *params)
         value = await call_triple(
-            self._client, self.uri, method, params, MasterError, MasterUnreachable
+            self._client, self.uri, method, params, MasterError, MasterUnreachable, read=read
         )
         self.last_seen = time.monotonic()
         return value
@@ -56,35 +62,31 @@ class MasterProxy:
 
     async def lookup_node(self, name: str) -> str:
         """The URI of a node's slave API."""
-        return str(await self.call("lookupNode", name))
+        return await self.call("lookupNode", name, read=str)
 
     async def lookup_service(self, name: str) -> str:
         """The ``rosrpc://host:port`` of a service's provider."""
-        return str(await self.call("lookupService", name))
+        return await self.call("lookupService", name, read=str)
 
     async def get_published_topics(self, subgraph: str = "") -> list[TopicType]:
         """Topics with a publisher, all or those below a namespace."""
-        return [TopicType(*row) for row in await self.call("getPublishedTopics", subgraph)]
+        return await self.call("getPublishedTopics", subgraph, read=topic_types)
 
     async def get_topic_types(self) -> list[TopicType]:
         """Every topic whose type was ever announced, published or not."""
-        return [TopicType(*row) for row in await self.call("getTopicTypes")]
+        return await self.call("getTopicTypes", read=topic_types)
 
     async def get_system_state(self) -> SystemState:
         """All registrations."""
-        return SystemState(*({row[0]: row[1] for row in part} for part in await self._state()))
-
-    async def _state(self) -> list[list[list[Any]]]:
-        state: list[list[list[Any]]] = await self.call("getSystemState")
-        return state
+        return await self.call("getSystemState", read=_system_state)
 
     async def get_uri(self) -> str:
         """The URI that the master knows itself by."""
-        return str(await self.call("getUri"))
+        return await self.call("getUri", read=str)
 
     async def get_pid(self) -> int:
         """The master's process id."""
-        return int(await self.call("getPid"))
+        return await self.call("getPid", read=int)
 
     async def ping(self) -> float:
         """Seconds that one round trip to the master takes."""
@@ -96,24 +98,24 @@ class MasterProxy:
 
     async def register_publisher(self, topic: str, type: str, uri: str) -> list[str]:
         """Announce a publisher; the URIs of the topic's subscribers."""
-        return list(await self.call("registerPublisher", topic, type, uri))
+        return await self.call("registerPublisher", topic, type, uri, read=_strings)
 
     async def unregister_publisher(self, topic: str, uri: str) -> int:
-        return int(await self.call("unregisterPublisher", topic, uri))
+        return await self.call("unregisterPublisher", topic, uri, read=int)
 
     async def register_subscriber(self, topic: str, type: str, uri: str) -> list[str]:
         """Announce a subscriber; the URIs of the topic's publishers."""
-        return list(await self.call("registerSubscriber", topic, type, uri))
+        return await self.call("registerSubscriber", topic, type, uri, read=_strings)
 
     async def unregister_subscriber(self, topic: str, uri: str) -> int:
-        return int(await self.call("unregisterSubscriber", topic, uri))
+        return await self.call("unregisterSubscriber", topic, uri, read=int)
 
     async def register_service(self, service: str, service_uri: str, uri: str) -> None:
         """Announce a provider at ``service_uri``, which is ``rosrpc://host:port``."""
         await self.call("registerService", service, service_uri, uri)
 
     async def unregister_service(self, service: str, service_uri: str) -> int:
-        return int(await self.call("unregisterService", service, service_uri))
+        return await self.call("unregisterService", service, service_uri, read=int)
 
     # parameters
 
@@ -124,20 +126,35 @@ class MasterProxy:
         await self.call("setParam", key, value)
 
     async def has_param(self, key: str) -> bool:
-        return bool(await self.call("hasParam", key))
+        return await self.call("hasParam", key, read=bool)
 
     async def delete_param(self, key: str) -> None:
         await self.call("deleteParam", key)
 
     async def search_param(self, key: str) -> str:
-        return str(await self.call("searchParam", key))
+        return await self.call("searchParam", key, read=str)
 
     async def get_param_names(self) -> list[str]:
-        return list(await self.call("getParamNames"))
+        return await self.call("getParamNames", read=_strings)
 
     async def subscribe_param(self, key: str, uri: str) -> Any:
         """Ask for updates of ``key``; its value now, ``{}`` when it is not set."""
         return await self.call("subscribeParam", uri, key)
 
     async def unsubscribe_param(self, key: str, uri: str) -> int:
-        return int(await self.call("unsubscribeParam", uri, key))
+        return await self.call("unsubscribeParam", uri, key, read=int)
+
+
+def topic_types(rows: Any) -> list[TopicType]:
+    """[[topic, type], ...] as it comes in several answers."""
+    return [TopicType(*row) for row in rows]
+
+
+def _strings(values: Any) -> list[str]:
+    if not isinstance(values, list) or not all(isinstance(value, str) for value in values):
+        raise TypeError("expected a list of strings")
+    return values
+
+
+def _system_state(parts: Any) -> SystemState:
+    return SystemState(*({name: list(nodes) for name, nodes in part} for part in parts))

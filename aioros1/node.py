@@ -18,7 +18,7 @@ from aioros1.errors import ClosedError, MasterError, MasterUnreachable
 from aioros1.events import Broadcast, Event, EventStream
 from aioros1.graph import Graph
 from aioros1.heartbeat import Heartbeat
-from aioros1.idl import default_store
+from aioros1.idl import MessageStore, default_store
 from aioros1.master_proxy import MasterProxy
 from aioros1.net.hosts import bind_address_for, is_loopback, local_address_facing, resolve, uri_host
 from aioros1.net.xmlrpc_client import XmlRpcClient
@@ -38,10 +38,10 @@ from aioros1.subscriber import Subscriber, SubscriberOptions
 from aioros1.supervisor import Supervisor
 from aioros1.time import Duration, Time
 from aioros1.waiting import deadline
+from aioros1.wire.xmlrpc import decode_response, encode_response
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
-    from aioros1.idl import MessageStore
 
 __all__ = ["Node"]
 
@@ -124,6 +124,9 @@ class Node:
         self.timeouts = timeouts
         self.limits = limits
         self.store = store if store is not None else default_store()
+        self.peer_definitions = MessageStore(parent=self.store)
+        """Definitions that publishers sent: a store of their own, so that what a peer
+        says is never found by who asks for a type by name."""
         arguments = names.parse_args(argv or ())
         special = arguments.special
         environ = os.environ
@@ -496,8 +499,9 @@ class Node:
         """
         key = self._param_key(key)
         await self.master.set_param(key, value)
-        # The master tells everybody but the one who did it.
-        self._roles.param_updated(key, value)
+        # The master tells everybody but the one who did it. What we tell ourselves is what
+        # the others get: a list for a tuple, and nothing that the caller can still change.
+        self._roles.param_updated(key, decode_response(encode_response(value)))
 
     async def has_param(self, key: str) -> bool:
         """Whether a parameter is set. Raises :class:`~aioros1.MasterError`."""

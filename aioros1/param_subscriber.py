@@ -52,10 +52,9 @@ class FollowedParam:
             self.value = value
         else:
             self.value = _graft(self.value, key[len(self.name.rstrip("/")) + 1 :].split("/"), value)
-        event = ParamUpdate(key, value)
         for subscriber in self.subscribers:
-            subscriber._put(event)
-        self._node._emit(event)
+            subscriber._put(ParamUpdate(key, copy.deepcopy(value)))
+        self._node._emit(ParamUpdate(key, copy.deepcopy(value)))
 
     async def _register(self) -> None:
         node = self._node

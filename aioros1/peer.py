@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 from aioros1.errors import PeerError, PeerUnreachable
-from aioros1.master_proxy import TopicType
-from aioros1.triple import call_triple
+from aioros1.master_proxy import TopicType, topic_types
+from aioros1.triple import as_it_is, call_triple
 
 if TYPE_CHECKING:
     from aioros1.net.xmlrpc_client import XmlRpcClient
@@ -23,6 +23,8 @@ __all__ = [
     "SubscribeConnection",
     "SubscribeStats",
 ]
+
+T = TypeVar("T")
 
 
 class PublishConnection(NamedTuple):
@@ -95,49 +97,50 @@ class NodeProxy:
         self.uri = uri
         self.name = name
 
-    async def call(self, method: str, *params: Any, bare: bool = False) -> Any:
-        """Any method of the node's; the caller id is put in front."""
+    async def call(
+        self,
+        method: str,
+        *params: Any,
+        bare: bool = False,
+        read: Callable[[Any], T] = as_it_is,
+    ) -> T:
+        """Any method of the node's; the caller id is put in front.
+
+        ``read`` makes what is returned of the value that the node answers; with ``bare``
+        the answer need not be ``[code, status, value]``.
+        """
+        params = (self._caller_id, *params)
         return await call_triple(
-            self._client,
-            self.uri,
-            method,
-            (self._caller_id, *params),
-            PeerError,
-            PeerUnreachable,
-            bare=bare,
+            self._client, self.uri, method, params, PeerError, PeerUnreachable, bare=bare, read=read
         )
 
     async def get_bus_stats(self) -> BusStats:
         """Counters of all connections."""
-        answer = await self.call("getBusStats", bare=True)
-        try:
-            return _bus_stats(answer)
-        except (TypeError, ValueError, IndexError) as error:
-            raise PeerError(-1, f"getBusStats at {self.uri}: cannot read {answer!r}") from error
+        return await self.call("getBusStats", bare=True, read=_bus_stats)
 
     async def get_bus_info(self) -> list[BusInfo]:
         """All connections."""
-        return [BusInfo(*row[:7]) for row in await self.call("getBusInfo")]
+        return await self.call("getBusInfo", read=_bus_info)
 
     async def get_master_uri(self) -> str:
-        return str(await self.call("getMasterUri"))
+        return await self.call("getMasterUri", read=str)
 
     async def shutdown(self, reason: str = "") -> None:
         """Ask the node to end; it answers first."""
         await self.call("shutdown", reason)
 
     async def get_pid(self) -> int:
-        return int(await self.call("getPid"))
+        return await self.call("getPid", read=int)
 
     async def get_subscriptions(self) -> list[TopicType]:
-        return [TopicType(*row) for row in await self.call("getSubscriptions")]
+        return await self.call("getSubscriptions", read=topic_types)
 
     async def get_publications(self) -> list[TopicType]:
-        return [TopicType(*row) for row in await self.call("getPublications")]
+        return await self.call("getPublications", read=topic_types)
 
     async def request_topic(self, topic: str, protocols: Sequence[Sequence[Any]]) -> list[Any]:
         """Ask a publisher how to connect; its choice among ``protocols``, with parameters."""
-        return list(await self.call("requestTopic", topic, protocols))
+        return await self.call("requestTopic", topic, protocols, read=_list)
 
     async def ping(self) -> float:
         """Seconds that one round trip to the node takes."""
@@ -146,20 +149,36 @@ class NodeProxy:
         return time.perf_counter() - start
 
 
+def _list(value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise TypeError("expected a list")
+    return value
+
+
+def _bus_info(rows: Any) -> list[BusInfo]:
+    return [BusInfo(*row[:7]) for row in rows]
+
+
 def _bus_stats(answer: Sequence[Any]) -> BusStats:
     publish, subscribe, service = (*answer, [], [], [])[:3]
     return BusStats(
-        [
-            PublishStats(topic, count, [PublishConnection(*row) for row in rows])
-            for topic, count, rows in publish
-        ],
+        [_published(row) for row in publish],
         [SubscribeStats(topic, [_received(row) for row in rows]) for topic, rows in subscribe],
-        # roscpp gives the counters in one row, rospy an empty list.
-        ServiceStats(*service) if len(service) == 3 and not isinstance(service, Mapping) else None,
+        # rospy and roscpp give nothing here.
+        ServiceStats(*service) if isinstance(service, list) and len(service) == 3 else None,
     )
+
+
+def _published(row: Sequence[Any]) -> PublishStats:
+    if len(row) == 2:  # roscpp counts the bytes of the messages for each connection instead
+        topic, rows = row
+        connections = [PublishConnection(each[0], each[1], each[3], bool(each[4])) for each in rows]
+        return PublishStats(topic, sum(each[2] for each in rows), connections)
+    topic, count, rows = row
+    return PublishStats(topic, count, [PublishConnection(*each) for each in rows])
 
 
 def _received(row: Sequence[Any]) -> SubscribeConnection:
     if len(row) == 4:  # as documented; rospy and roscpp put the number of messages second
-        return SubscribeConnection(row[0], row[1], -1, row[2], row[3])
-    return SubscribeConnection(*row)
+        return SubscribeConnection(row[0], row[1], -1, row[2], bool(row[3]))
+    return SubscribeConnection(row[0], row[1], row[2], row[3], bool(row[4]))

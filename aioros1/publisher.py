@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar
@@ -193,7 +194,8 @@ class Publisher(Role, Generic[M]):
             msg = message_from(cls, msg, fields)
         if cls._has_header:
             self._seq = (self._seq + 1) & 0xFFFFFFFF
-            msg.header.seq = self._seq
+            with contextlib.suppress(AttributeError):  # no header: told by what encodes it
+                msg.header.seq = self._seq
         if cls._has_bulk:
             parts = cls._frame_parts(msg)
             if len(parts) > 1:

@@ -184,7 +184,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         :class:`~aioros1.ClosedError`.
         """
         # The master tells nobody of new services, so there is nothing but to ask.
-        backoff = Backoff(first=0.02, last=0.5)
+        backoff = Backoff(first=0.02, longest=0.5)
         async with deadline(timeout, f"service {self.name} did not appear"):
             while not await self.is_available():
                 await asyncio.sleep(backoff.delay())

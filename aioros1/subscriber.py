@@ -242,7 +242,7 @@ class Subscriber(Role, Generic[M]):
             return _raw
         if self.message_class is not None:
             return _decoder_of(self.message_class, self.options.views)
-        return _AnyDecoder(self._node.store, self.options.views)
+        return _AnyDecoder(self._node.peer_definitions, self.options.views)
 
     # being filled
 

@@ -9,7 +9,6 @@ tries again, with growing delays, for as long as the master lists that publisher
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -99,22 +98,25 @@ class Subscription:
         # A dict and not a set: the order of the master is kept, doubles are dropped.
         wanted = dict.fromkeys(uris)
         for uri in [uri for uri in self._followers if uri not in wanted]:
-            self._followers.pop(uri).leave()
+            self._followers[uri].leave()
         for uri in wanted:
             follower = self._followers.get(uri)
-            if follower is None:
-                follower = self._followers[uri] = _Follower(self, self._node, uri)
-                follower.task = self._node._spawn(
-                    follower.run, name=f"{self._node.name} follows {self.name} of {uri}"
-                )
-            else:
-                follower.retry_now()
+            if follower is not None:
+                follower.stay()
+                continue
+            follower = self._followers[uri] = _Follower(self, self._node, uri)
+            follower.task = self._node._spawn(
+                follower.run, name=f"{self._node.name} follows {self.name} of {uri}"
+            )
+
+    def follower_ended(self, uri: str) -> None:
+        """Nothing comes from there any more."""
+        self._followers.pop(uri, None)
 
     def close(self) -> None:
         """Drop all publishers at once."""
-        for follower in self._followers.values():
+        for follower in tuple(self._followers.values()):
             follower.cancel()
-        self._followers.clear()
         self.changed.wake()
 
     def link_opened(self, link: IncomingLink) -> None:
@@ -166,8 +168,9 @@ class _Follower:
         self._leaving = False
         self._complaint = ""
 
-    def retry_now(self) -> None:
-        """The master has announced the publisher again."""
+    def stay(self) -> None:
+        """The master lists the publisher, again perhaps: no reason to wait any longer."""
+        self._leaving = False
         self._stir.set()
 
     def leave(self) -> None:
@@ -179,6 +182,7 @@ class _Follower:
             self._stir.set()
 
     def cancel(self) -> None:
+        self._subscription.follower_ended(self._uri)
         if self.task is not None:
             self.task.cancel()
 
@@ -193,6 +197,7 @@ class _Follower:
                     self._complain(str(error))
                 if not self._leaving:
                     await self._stirred(backoff.delay())
+            self._subscription.follower_ended(self._uri)
         finally:
             if self._link is not None:
                 self._link.abort()
@@ -206,6 +211,7 @@ class _Follower:
                 stream.peer,
                 node.name,
                 subscription.wanted(),
+                tcp_nodelay=any(sub.options.tcp_nodelay for sub in subscription.subscribers),
                 max_bytes=node.limits.header_bytes,
                 max_fields=node.limits.header_fields,
             )
@@ -215,11 +221,15 @@ class _Follower:
         except BaseException:
             stream.abort()
             raise
-        backoff.reset()
-        self._complaint = ""
+        loop = asyncio.get_running_loop()
+        begin = loop.time()
         try:
             await self._until_closed(link)
         finally:
+            # Not for having connected alone: a publisher that accepts and then fails
+            # would be asked ten times a second for ever.
+            if link.info.stats.messages or loop.time() - begin > backoff.longest:
+                backoff.reset()
             link.abort()
             self._link = None
             subscription.link_closed(link)
@@ -253,19 +263,26 @@ class _Follower:
 
     async def _until_closed(self, link: IncomingLink) -> None:
         """Wait for the end of the connection, or of the publisher's place in the list."""
-        while not link.is_closed and not self._leaving:
-            await self._stirred(None)
-        while not link.is_closed and link.has_progressed():
-            await self._stirred(_GRACE)
+        while not link.is_closed:
+            if not self._leaving:
+                await self._stirred(None)
+                continue
+            link.has_progressed()  # from now on
+            if not await self._stirred(_GRACE) and not link.has_progressed():
+                break
         if link.failure is not None:
             self._complain(link.failure)
 
-    async def _stirred(self, timeout: float | None) -> None:
-        """Wait until the master or the connection has news, at most ``timeout`` seconds."""
-        with contextlib.suppress(TimeoutError):
+    async def _stirred(self, timeout: float | None) -> bool:
+        """Wait until the master or the connection has news, at most ``timeout`` seconds;
+        whether there was any."""
+        try:
             async with asyncio.timeout(timeout):
                 await self._stir.wait()
+        except TimeoutError:
+            return False
         self._stir.clear()
+        return True
 
     def _complain(self, text: str) -> None:
         """Log what went wrong, once until it is something else or has gone well."""

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerError, PeerUnreachable
 
 if TYPE_CHECKING:
     from aioros1.net.xmlrpc_client import XmlRpcClient
 
-__all__ = ["call_triple"]
+__all__ = ["as_it_is", "call_triple"]
+
+T = TypeVar("T")
+
+
+def as_it_is(value: Any) -> Any:
+    """What reads an answer that nothing is to be made of."""
+    return value
 
 
 async def call_triple(
@@ -21,12 +29,13 @@ async def call_triple(
     unreachable: type[MasterUnreachable] | type[PeerUnreachable],
     *,
     bare: bool = False,
-) -> Any:
-    """Call a method and return the value of its answer.
+    read: Callable[[Any], T] = as_it_is,
+) -> T:
+    """Call a method and return what ``read`` makes of the value of its answer.
 
     Raises ``refused`` for any code but 1, for a fault and for an answer that is not a
-    triple; ``unreachable`` when there is no answer. With ``bare`` an answer that is not
-    a triple is returned as it is: roscpp answers ``getBusStats`` so.
+    triple or that ``read`` cannot read; ``unreachable`` when there is no answer. With
+    ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so.
     """
     from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
 
@@ -42,9 +51,13 @@ async def call_triple(
         raise ClosedError(f"{method} at {uri}: {error}") from error
     if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
         code, status, value = answer
-        if code == 1:
-            return value
-        raise refused(code, f"{method} at {uri}: {status}")
-    if bare:
-        return answer
-    raise refused(-1, f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}")
+        if code != 1:
+            raise refused(code, f"{method} at {uri}: {status}")
+    elif bare:
+        value = answer
+    else:
+        raise refused(-1, f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}")
+    try:
+        return read(value)
+    except (TypeError, ValueError, LookupError, AttributeError) as error:
+        raise refused(-1, f"{method} at {uri}: cannot read {value!r:.200}: {error}") from error

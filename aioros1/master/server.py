@@ -89,6 +89,8 @@ class Master:
             shutdown=self._answer_shutdown,
         )
         self._server = XmlRpcServer(self._api.methods(), limits=limits, log=_LOG)
+        # What ends with the master, in reverse order; whatever else is to live as long as
+        # it does, such as the aggregator of /rosout, is put on top in start().
         self._stack = contextlib.AsyncExitStack()
         self._started = False
         self._closing: asyncio.Task[None] | None = None

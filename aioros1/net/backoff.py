@@ -11,11 +11,11 @@ class Backoff:
     """Delays that double, with jitter, so that peers that lost each other in the same
     moment do not come back in the same moment."""
 
-    __slots__ = ("_first", "_last", "_next")
+    __slots__ = ("_first", "_next", "longest")
 
-    def __init__(self, first: float = 0.1, last: float = 10.0) -> None:
+    def __init__(self, first: float = 0.1, longest: float = 10.0) -> None:
+        self.longest = longest
         self._first = first
-        self._last = last
         self._next = first
 
     def reset(self) -> None:
@@ -25,5 +25,5 @@ class Backoff:
     def delay(self) -> float:
         """Seconds to wait now: between half of the current delay and all of it."""
         current = self._next
-        self._next = min(self._last, 2 * current)
+        self._next = min(self.longest, 2 * current)
         return current * random.uniform(0.5, 1.0)

@@ -105,8 +105,11 @@ class FrameReceiver:
         if large is None:
             return self._scratch
         if self._filled == len(large):
-            self._view = None  # a bytearray that is looked at cannot grow
-            large.extend(bytes(min(len(large), self._wanted - len(large))))
+            # Not extended in place: who received into it last may still look at it.
+            grown = bytearray(min(2 * len(large), self._wanted))
+            grown[: self._filled] = large
+            self._large = large = grown
+            self._view = None
         if self._view is None:
             self._view = memoryview(large)
         return self._view[self._filled :]

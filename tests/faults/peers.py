@@ -19,7 +19,7 @@ from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
 from aioros1.srv.std_srvs import SetBool
 
-PATIENCE = 10.0
+PATIENCE = 5.0
 """Seconds until a test that waits gives up; never reached when all is well."""
 
 STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from .processes import until
+from . import debian
 from .world import World
 
 
@@ -65,20 +65,20 @@ async def test_parameters_of_rospy_and_roscpp(under_rosmaster: World) -> None:
     assert results[1] == {"x": 1.5, "y": -2.0}
 
 
-async def test_a_killed_process_is_seen_to_end(under_rosmaster: World) -> None:
+async def test_a_killed_process_says_no_goodbye(under_rosmaster: World) -> None:
     topic = under_rosmaster.unique("chatter")
     listener = await under_rosmaster.rospy_ready("listener", topic, "std_msgs/String")
     await listener.kill()
     assert listener.code == -9
-    await until(lambda: not _alive(listener.pid), what="the process to be gone")
+    assert not listener.is_alive
     assert await under_rosmaster.who("subscribers", topic) == {"/rospy_listener"}
 
 
-def _alive(pid: int) -> bool:
-    import os
-
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    return True
+@pytest.mark.parametrize("required", [False, True])
+async def test_what_is_missing_skips_or_fails(
+    monkeypatch: pytest.MonkeyPatch, required: bool
+) -> None:
+    monkeypatch.setenv("AIOROS1_REQUIRE_INTEROP", "1" if required else "")
+    outcome = pytest.fail.Exception if required else pytest.skip.Exception
+    with pytest.raises(outcome, match=r"nothing.h is not installed: apt-get install ros-core"):
+        debian.require("rosmaster", "/usr/include/nothing.h")

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 
 import pytest
@@ -99,7 +100,6 @@ async def test_registerService_and_unregisterService(node):
 
 # ------------------------------------------------------------------ callbacks and results
 
-STATE = lambda state: state.publishers["/chatter"] == ["/talker"]  # noqa: E731
 CALLS = {
     "LookupNode": (lambda node: node.master.lookup_node("/talker"), lambda uri: "http://" in uri),
     "GetPublishedTopics": (
@@ -111,7 +111,10 @@ CALLS = {
         lambda topics: [pair.type for pair in topics if pair.name == "/chatter"]
         == ["std_msgs/String"],
     ),
-    "GetSystemState": (lambda node: node.master.get_system_state(), STATE),
+    "GetSystemState": (
+        lambda node: node.master.get_system_state(),
+        lambda state: state.publishers["/chatter"] == ["/talker"],
+    ),
     "GetUri": (lambda node: node.master.get_uri(), lambda uri: uri.startswith("http://")),
     "LookupService": (
         lambda node: node.master.lookup_service("/nothing"),
@@ -155,8 +158,6 @@ async def test_awaited_value_replaces_callback_and_result(node, name):
 
 async def test_callid_is_the_task(node):
     """What was asked can be given up, by cancelling whoever asks."""
-    import asyncio
-
     asking = [asyncio.create_task(node.master.get_uri()) for _ in range(3)]
     asking[1].cancel()
     answers = await asyncio.gather(*asking, return_exceptions=True)
@@ -174,10 +175,9 @@ async def test_Result_code_and_status_are_those_of_MasterError(node):
 
 
 async def test_TopicTypePair_is_TopicType(node):
-    [pair] = await node.master.get_published_topics("/chatter") or [
-        row for row in await node.master.get_published_topics() if row.name == "/chatter"
-    ]
-    assert (pair.name, pair.type) == pair == ("/chatter", "std_msgs/String")
+    async with node.advertise("arm/joint", String):
+        [pair] = await node.master.get_published_topics("/arm")
+    assert (pair.name, pair.type) == pair == ("/arm/joint", "std_msgs/String")
 
 
 async def test_ProviderState_is_a_dict_of_lists(node):

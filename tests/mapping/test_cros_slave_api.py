@@ -11,6 +11,7 @@ import pytest
 
 import aioros1
 from aioros1.msg.std_msgs import String
+from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.srv.roscpp_tutorials import TwoInts
 
 
@@ -218,8 +219,6 @@ async def test_slave_method_system_multicall(peer, pair):
         {"methodName": "getPid", "params": ["/listener"]},
         {"methodName": "getUri", "params": ["/listener"]},
     ]
-    from aioros1.net.xmlrpc_client import XmlRpcClient
-
     client = XmlRpcClient()
     try:
         answers = await client.call(talker.uri, "system.multicall", peer_calls)

@@ -1,0 +1,147 @@
+"""The code in the README and in ``docs`` works.
+
+A block of Python that runs an event loop itself (``asyncio.run``, ``aioros1.run``) is a
+program: it is started as one, and has to end well. All other blocks of a page are run one
+after the other, in one node, with the names of those before. A block after the comment
+``<!-- compiled only -->`` is not run.
+"""
+
+from __future__ import annotations
+
+import ast
+import asyncio
+import inspect
+import os
+import re
+import signal
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from types import CodeType
+
+import pytest
+
+import aioros1
+
+ROOT = Path(aioros1.__file__).parents[1]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PATIENCE = 20.0
+
+# The code does not depend on the loop, and this file is about the code.
+one_loop = pytest.mark.asyncio(loop_factories=["asyncio"])
+
+_BLOCK = re.compile(
+    r"(?P<mark><!-- compiled only -->\n)?^```python\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL
+)
+_PROGRAM = re.compile(r"^(asyncio|aioros1|uvloop)\.run\(", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Block:
+    page: Path
+    line: int
+    code: str
+    is_run: bool
+
+    @property
+    def is_program(self) -> bool:
+        return _PROGRAM.search(self.code) is not None
+
+    @property
+    def place(self) -> str:
+        return f"{self.page.relative_to(ROOT)}:{self.line}"
+
+    def compile(self) -> CodeType:
+        """The code, with the lines of errors counted as in the page."""
+        source = "\n" * self.line + self.code
+        flags = ast.PyCF_ALLOW_TOP_LEVEL_AWAIT
+        code: CodeType = compile(source, str(self.page), "exec", flags=flags)
+        return code
+
+
+def blocks_of(page: Path) -> list[Block]:
+    text = page.read_text(encoding="utf-8")
+    return [
+        Block(page, text.count("\n", 0, match.start("code")), match["code"], not match["mark"])
+        for match in _BLOCK.finditer(text)
+    ]
+
+
+BLOCKS = [block for page in PAGES for block in blocks_of(page)]
+PROGRAMS = [block for block in BLOCKS if block.is_program and block.is_run]
+FRAGMENTS = {
+    page: fragments
+    for page in PAGES
+    if (fragments := [b for b in blocks_of(page) if b.is_run and not b.is_program])
+}
+
+
+def place(value: Block | Path) -> str:
+    return value.place if isinstance(value, Block) else str(value.relative_to(ROOT))
+
+
+def test_there_is_code_in_the_documentation():
+    assert len(BLOCKS) > 20
+    assert any(block.page.name == "README.md" for block in PROGRAMS)
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=place)
+def test_it_compiles(block):
+    block.compile()
+
+
+@one_loop
+@pytest.mark.parametrize("page", FRAGMENTS, ids=place)
+async def test_fragments_run(page, master, make_node, capsys):
+    node = await make_node("docs", rosout=True)
+    names = {"aioros1": aioros1, "asyncio": asyncio, "master": master, "node": node}
+    for block in FRAGMENTS[page]:
+        code = block.compile()
+        async with asyncio.timeout(PATIENCE):
+            # What such code is, depends on whether there is an await in it.
+            result = eval(code, names)
+            if inspect.iscoroutine(result):
+                await result
+
+
+@one_loop
+@pytest.mark.skipif(os.name != "posix", reason="ends programs by signals")
+@pytest.mark.parametrize("block", PROGRAMS, ids=place)
+async def test_programs_run(block, master):
+    environ = {key: value for key, value in os.environ.items() if not key.startswith("ROS_")}
+    environ |= {"PYTHONPATH": str(ROOT), "ROS_MASTER_URI": master.uri}
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, "-W", "error", "-c", block.code,
+        env=environ, stdin=asyncio.subprocess.DEVNULL,
+        stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
+    )  # fmt: skip
+    try:
+        if "aioros1.run(" in block.code:  # it runs until it is interrupted
+            async with asyncio.timeout(PATIENCE), aioros1.Node("watch", master_uri=master.uri) as w:
+                await w.graph.wait_for(lambda graph: "/chatter" in graph.topics)
+            process.send_signal(signal.SIGINT)
+        async with asyncio.timeout(PATIENCE):
+            _, errors = await process.communicate()
+    finally:
+        if process.returncode is None:
+            process.kill()
+            await process.communicate()
+    assert (process.returncode, errors.decode()) == (0, "")
+
+
+def test_commands_of_the_readme_set_everything_up():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for heading, last in (("Quick start", "examples/demo.py"), ("Tests", "-m pytest")):
+        section = text.split(f"\n## {heading}\n")[1]
+        command = section.split("```sh\n")[1].split("```")[0]
+        assert command.startswith("python3 -m venv .venv && .venv/bin/pip install ")
+        assert command.endswith(f".venv/bin/python {last}\n")
+        assert command.count("\n") == 1
+
+
+def test_links_between_pages_lead_somewhere():
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
+            if "://" not in target:
+                assert (page.parent / target).exists(), f"{place(page)}: {target}"
