@@ -46,12 +46,12 @@ class FollowedParam:
         """``key`` was set to ``value``; it is the followed one, one below or one above it."""
         self._updates += 1
         if self.name != key and _is_below(self.name, key):
-            value = _dig(value, self.name[len(key.rstrip("/")) + 1 :].split("/"))
+            value = _dig(value, _path(self.name, key))
             key = self.name
-        if key == self.name:
-            self.value = value
-        else:
-            self.value = _graft(self.value, key[len(self.name.rstrip("/")) + 1 :].split("/"), value)
+        path = [] if key == self.name else _path(key, self.name)
+        if value == {} and _dig(self.value, path) == {}:
+            return  # unset already: the master tells also the node that deleted it
+        self.value = _graft(self.value, path, value) if path else value
         for subscriber in self.subscribers:
             subscriber._put(ParamUpdate(key, copy.deepcopy(value)))
         self._node._emit(ParamUpdate(key, copy.deepcopy(value)))
@@ -156,6 +156,11 @@ class ParamSubscriber(Role):
 
 def _is_below(key: str, other: str) -> bool:
     return other == "/" or key.startswith(other + "/")
+
+
+def _path(key: str, above: str) -> list[str]:
+    """The names that lead from ``above`` to ``key`` below it."""
+    return key[len(above.rstrip("/")) + 1 :].split("/")
 
 
 def _dig(value: Any, path: list[str]) -> Any:

@@ -180,6 +180,11 @@ class Publication:
         self._slow = tuple(other for other in self._slow if other is not link)
         self._open += (link,)
 
+    def messages_lost(self, link: OutgoingLink) -> None:
+        for _, publisher in link.queue:
+            publisher.stats.dropped += 1
+            link.info.stats.dropped += 1
+
     def link_closed(self, link: OutgoingLink) -> None:
         self._open = tuple(other for other in self._open if other is not link)
         self._slow = tuple(other for other in self._slow if other is not link)

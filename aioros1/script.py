@@ -26,12 +26,17 @@ _GRACE = 1.0
 
 
 def run(
-    main: Callable[[Node], Coroutine[Any, Any, T]], name: str | None = None, **node_options: Any
+    main: Callable[[Node], Coroutine[Any, Any, T]],
+    name: str | None = None,
+    *,
+    loop_factory: Callable[[], asyncio.AbstractEventLoop] | None = None,
+    **node_options: Any,
 ) -> T | None:
     """Run ``main(node)`` in a node and an event loop of its own; what it returns.
 
     ``name`` is the script's by default. The command line of the script is the node's,
-    unless ``argv`` is among the options.
+    unless ``argv`` is among the options. ``loop_factory`` is that of
+    :class:`asyncio.Runner`, as ``uvloop.new_event_loop``.
 
     SIGINT and SIGTERM close the node. Loops over roles and rates end then, and with
     them, usually, ``main``; if it does not, it is cancelled, and None is returned. A
@@ -41,7 +46,8 @@ def run(
     if name is None:
         name = Path(sys.argv[0]).stem or "aioros1"
     node_options.setdefault("argv", sys.argv[1:])
-    return asyncio.run(_run(main, Node(name, **node_options)))
+    with asyncio.Runner(loop_factory=loop_factory) as runner:
+        return runner.run(_run(main, Node(name, **node_options)))
 
 
 async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T | None:

@@ -87,6 +87,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         self._turn = asyncio.Lock()
         self._kept: _Connection | None = None
         self._open: set[_Connection] = set()
+        self._limits: set[deadline] = set()
         self._sequence = itertools.count(1)
 
     @property
@@ -136,12 +137,19 @@ class ServiceCaller(Role, Generic[Q, A]):
         message = message_from(self.service_class.Request, request, fields)
         frame = self.service_class.Request._frame(message)
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
-        async with deadline(seconds, f"service {self.name}: no answer"):
-            if not self.options.persistent:
-                return await self._call_once(frame)
-            async with self._turn:
-                self._check_open()
-                return await self._call_kept(frame)
+        try:
+            async with deadline(seconds, f"service {self.name}: no answer") as limit:
+                self._limits.add(limit)
+                try:
+                    if not self.options.persistent:
+                        return await self._call_once(frame)
+                    async with self._turn:
+                        return await self._call_kept(frame)
+                finally:
+                    self._limits.discard(limit)
+        except TimeoutError:
+            self._check_open()  # closing has ended it, and not the time
+            raise
 
     __call__ = call
 
@@ -254,15 +262,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         node = self._node
         uri = await self._look_up()
         self.provider_uri = uri
-        try:
-            parts = urlsplit(uri)
-            host, port = parts.hostname, parts.port
-        except ValueError:
-            host = port = None
-        if parts.scheme != "rosrpc" or not host or not port:
-            raise ServiceUnavailable(
-                f"service {self.name}: the master gives {uri!r}, expected rosrpc://host:port"
-            )
+        host, port = self._address(uri)
         try:
             stream = await connect(host, port, timeout=node.timeouts.connect)
         except (OSError, TimeoutError) as error:
@@ -292,6 +292,17 @@ class ServiceCaller(Role, Generic[Q, A]):
             raise
         return self._opened(stream, client.header)
 
+    def _address(self, uri: str) -> tuple[str, int]:
+        try:
+            parts = urlsplit(uri)
+            if parts.scheme == "rosrpc" and parts.hostname and parts.port:
+                return parts.hostname, parts.port
+        except ValueError:
+            pass  # no port, or brackets that do not match
+        raise ServiceUnavailable(
+            f"service {self.name}: the master gives {uri!r}, expected rosrpc://host:port"
+        )
+
     def _opened(self, stream: Stream, header: Mapping[str, str]) -> _Connection:
         peer = header.get("callerid", stream.peer)
         info = connection_info(stream, self.name, "b", peer, header)
@@ -318,12 +329,13 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     def _abort(self) -> None:
         super()._abort()
+        for limit in self._limits:
+            limit.expire()
         for connection in tuple(self._open):
             self._drop(connection)
 
     async def _close(self) -> None:
-        for connection in tuple(self._open):
-            self._drop(connection)
+        self._abort()
 
 
 class _Connection:

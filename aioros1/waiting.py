@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from typing import Self
 
 __all__ = ["Waiters", "deadline"]
 
@@ -78,9 +79,14 @@ class deadline:  # noqa: N801 - it is used as asyncio.timeout is
         self._seconds = seconds
         self._what = what
 
-    async def __aenter__(self) -> None:
+    async def __aenter__(self) -> Self:
         self._timeout = asyncio.timeout(self._seconds)
         await self._timeout.__aenter__()
+        return self
+
+    def expire(self) -> None:
+        """End the block now, as if the time was over."""
+        self._timeout.reschedule(asyncio.get_running_loop().time())
 
     async def __aexit__(self, *exc_info: object) -> None:
         try:

@@ -13,7 +13,7 @@ import aioros1
 
 project = "aioros1"
 author = "The aioros1 developers"
-copyright = "2026, the aioros1 developers"
+copyright = "2026, the aioros1 developers"  # noqa: A001
 release = version = aioros1.__version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
@@ -39,16 +39,21 @@ nitpick_ignore_regex = [
 ]
 
 
-def _find_public_name(app: Any, env: Any, node: Any, content: Any) -> Any:
+def _find_by_end(app: Any, env: Any, node: Any, content: Any) -> Any:
     """Docstrings say ``Node`` where a module knows that name only while types are checked."""
-    target = f"aioros1.{node.get('reftarget', '').lstrip('.')}"
+    if node.get("refdomain") != "py":
+        return None
     domain = env.domains["py"]
-    if node.get("refdomain") != "py" or target not in domain.objects:
+    end = "." + node["reftarget"].lstrip(".")
+    found = [
+        name for name, entry in domain.objects.items() if name.endswith(end) and not entry.aliased
+    ]
+    if len(found) != 1:
         return None
     return domain.resolve_xref(
-        env, node["refdoc"], app.builder, node["reftype"], target, node, content
+        env, node["refdoc"], app.builder, node["reftype"], found[0], node, content
     )
 
 
 def setup(app: Any) -> None:
-    app.connect("missing-reference", _find_public_name)
+    app.connect("missing-reference", _find_by_end)

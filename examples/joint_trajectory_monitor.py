@@ -8,13 +8,11 @@ from aioros1.msg.trajectory_msgs import JointTrajectory
 
 
 def summary(trajectory: JointTrajectory) -> str:
-    points = trajectory.points
+    frame, points = trajectory.header.frame_id or "no frame", trajectory.points
     if not points:
-        return f"{trajectory.header.frame_id or 'no frame'}: empty, which means: stop"
-    lines = [
-        f"{trajectory.header.frame_id or 'no frame'}: {len(points)} points "
-        f"in {points[-1].time_from_start.to_sec():.2f} s"
-    ]
+        return f"{frame}: empty, which means: stop"
+    seconds = points[-1].time_from_start.to_sec()
+    lines = [f"{frame}: {len(points)} points in {seconds:.2f} s"]
     for index, name in enumerate(trajectory.joint_names):
         path = [point.positions[index] for point in points if index < len(point.positions)]
         if path:

@@ -54,8 +54,9 @@ def no_task_left(request: pytest.FixtureRequest) -> Iterator[None]:
 
 @pytest.fixture
 async def master() -> AsyncIterator[aioros1.Master]:
-    """A master of our own on a free port."""
-    async with aioros1.Master(host="localhost", port=0) as master:
+    """A master of our own on a free port, and nothing else in its graph."""
+    # Without the node /rosout, so that the graph holds what a test puts there.
+    async with aioros1.Master(host="localhost", port=0, rosout=False) as master:
         yield master
 
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import asyncio
 
+import aioros1
 from aioros1.msg.std_msgs import String
 from aioros1.srv.std_srvs import SetBool
-
-import aioros1
 
 
 async def main() -> None:

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import ast
 import asyncio
+import importlib
 import inspect
 import os
 import re
 import signal
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import CodeType
@@ -22,6 +24,8 @@ from types import CodeType
 import pytest
 
 import aioros1
+from aioros1.graph import Graph
+from aioros1.master_proxy import MasterProxy
 
 ROOT = Path(aioros1.__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -94,7 +98,13 @@ def test_it_compiles(block):
 @pytest.mark.parametrize("page", FRAGMENTS, ids=place)
 async def test_fragments_run(page, master, make_node, capsys):
     node = await make_node("docs", rosout=True)
-    names = {"aioros1": aioros1, "asyncio": asyncio, "master": master, "node": node}
+    names = {
+        "__name__": "docs",
+        "aioros1": aioros1,
+        "asyncio": asyncio,
+        "master": master,
+        "node": node,
+    }
     for block in FRAGMENTS[page]:
         code = block.compile()
         async with asyncio.timeout(PATIENCE):
@@ -145,3 +155,59 @@ def test_links_between_pages_lead_somewhere():
         for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
             if "://" not in target:
                 assert (page.parent / target).exists(), f"{place(page)}: {target}"
+
+
+KINDS: dict[str, type] = {
+    "node": aioros1.Node,
+    "node.graph": Graph,
+    "node.master": MasterProxy,
+    "peer": aioros1.NodeProxy,
+    "pub": aioros1.Publisher,
+    "sub": aioros1.Subscriber,
+    "provider": aioros1.ServiceProvider,
+    "caller": aioros1.ServiceCaller,
+    "psub": aioros1.ParamSubscriber,
+    "store": aioros1.MessageStore,
+    "master": aioros1.Master,
+}
+_MEMBER = re.compile(r"(?<![\w./])((?:node\.)?[a-z]+)\.([a-z_]\w*)")
+_DOTTED = re.compile(r"(?<![\w./])aioros1((?:\.[A-Za-z]\w*)+)")
+
+
+def is_member(kind: type, name: str) -> bool:
+    """Whether instances have an attribute of that name, set in a constructor or not."""
+    return hasattr(kind, name) or any(
+        f"self.{name}" in inspect.getsource(cls)
+        for cls in kind.__mro__
+        if cls.__module__.startswith("aioros1")
+    )
+
+
+def is_there(names: list[str]) -> bool:
+    """Whether ``aioros1`` has something by that dotted name."""
+    found: object = aioros1
+    for depth, name in enumerate(names, start=1):
+        if not hasattr(found, name):
+            try:
+                importlib.import_module(".".join(["aioros1", *names[:depth]]))
+            except ImportError:
+                return False
+        found = getattr(found, name)
+    return True
+
+
+def wishes(page: Path) -> Iterator[str]:
+    """What is named in a page and does not exist."""
+    for code in re.findall(r"`([^`\n]+)`", page.read_text(encoding="utf-8")):
+        for owner, name in _MEMBER.findall(code):
+            if owner in KINDS and not is_member(KINDS[owner], name):
+                yield f"{owner}.{name}"
+        for names in _DOTTED.findall(code):
+            if not is_there(names.split(".")[1:]):
+                yield f"aioros1{names}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=place)
+def test_what_is_named_exists(page):
+    """The tables say what stands for something else, and must not name what is only wished."""
+    assert not list(wishes(page))

@@ -15,10 +15,10 @@ import warnings
 from pathlib import Path
 
 import pytest
-from aioros1.msg.std_msgs import String
-from aioros1.srv.std_srvs import SetBool
 
 import aioros1
+from aioros1.msg.std_msgs import String
+from aioros1.srv.std_srvs import SetBool
 
 
 def open_sockets() -> set[str]:

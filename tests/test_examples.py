@@ -26,6 +26,7 @@ pytestmark = [
     pytest.mark.asyncio(loop_factories=["asyncio"]),
     pytest.mark.skipif(os.name != "posix", reason="ends programs by signals"),
 ]
+TESTS = Path(__file__).read_text(encoding="utf-8")
 
 
 class Program:
@@ -272,7 +273,7 @@ async def test_web_app(master, make_node):
 
             # A socket that is open does not keep the application from ending.
             app.process.send_signal(signal.SIGINT)
-            while not (await socket.receive(timeout=PATIENCE)).type == aiohttp.WSMsgType.CLOSE:
+            while (await socket.receive(timeout=PATIENCE)).type != aiohttp.WSMsgType.CLOSE:
                 pass
         assert await app.ends() == 0
         assert app.errors == ""
@@ -303,6 +304,6 @@ async def test_demo_says_what_did_not_come(tmp_path):
 
 
 async def test_every_example_is_tested():
-    source = Path(__file__).read_text(encoding="utf-8")
-    for path in EXAMPLES.glob("*.py"):
-        assert f'example("{path.stem}"' in source, f"{path.name} has no test"
+    for name in sorted(os.listdir(EXAMPLES)):
+        if name.endswith(".py"):
+            assert f'example("{name.removesuffix(".py")}"' in TESTS, f"{name} has no test"

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import asyncio
 
-from aioros1.msg.std_msgs import String
-
 import aioros1
+from aioros1.msg.std_msgs import String
 
 
 async def next_of(events, kind):

@@ -6,9 +6,9 @@ import asyncio
 import os
 
 import pytest
-from aioros1.msg.std_msgs import String
 
 import aioros1
+from aioros1.msg.std_msgs import String
 
 
 def test_the_constructor_does_no_io():

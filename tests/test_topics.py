@@ -5,9 +5,9 @@ from __future__ import annotations
 import asyncio
 
 import pytest
-from aioros1.msg.std_msgs import String
 
 import aioros1
+from aioros1.msg.std_msgs import String
 
 
 async def test_a_message_reaches_a_subscriber(make_node):

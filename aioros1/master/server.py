@@ -52,6 +52,9 @@ class Master:
     ``/rosdistro`` and ``/rosversion``, which are set as roscore does; values that no
     parameter can have raise as :func:`.encode_call` says.
 
+    ``rosout`` adds the node ``/rosout``, which relays what all nodes log to
+    ``/rosout_agg``, as roscore does.
+
     A request to shut down, which anybody may send, is answered and then obeyed.
     """
 
@@ -61,12 +64,14 @@ class Master:
         port: int = DEFAULT_PORT,
         *,
         params: Mapping[str, Any] | None = None,
+        rosout: bool = True,
         timeouts: Timeouts | None = None,
         limits: Limits | None = None,
     ) -> None:
         limits = limits if limits is not None else Limits()
         self._host = host
         self._port = port
+        self._rosout = rosout
         self._uri = ""
         self._run_id = _new_run_id()
         self._registry = Registry()
@@ -133,6 +138,13 @@ class Master:
         self._stack.push_async_callback(self._notifier.close)
         self._stack.push_async_callback(self._server.close)
         self._uri = self._api.uri = f"http://{uri_host(advertised)}:{self._server.port}/"
+        if self._rosout:
+            # Imported here: it is a node, and those who only want a master have none.
+            from aioros1.master.rosout_aggregator import RosoutAggregator
+
+            aggregator = RosoutAggregator(self._uri, advertised)
+            self._stack.push_async_callback(aggregator.close)
+            await aggregator.start()
         _LOG.info("master at %s, run id %s", self._uri, self._run_id)
 
     async def close(self) -> None:

@@ -154,6 +154,9 @@ class LinkOwner(Protocol):
     def link_opened(self, link: OutgoingLink) -> None:
         """The link takes messages again, its queue is empty."""
 
+    def messages_lost(self, link: OutgoingLink) -> None:
+        """What waits in the link's queue will not be sent."""
+
     def link_closed(self, link: OutgoingLink) -> None:
         """The connection is gone."""
 
@@ -217,6 +220,7 @@ class OutgoingLink(asyncio.Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         self.is_open = False
         self.is_closed = True
+        self._owner.messages_lost(self)
         self.queue.clear()
         self._unwatch()
         if not self._closed.done():

@@ -7,9 +7,8 @@ import json
 import sys
 import time
 
-from aioros1.msg.std_msgs import String
-
 import aioros1
+from aioros1.msg.std_msgs import String
 
 TOPIC = "benchmark"
 OPTIONS = {"rosout": False, "logger_services": False, "host": "localhost"}

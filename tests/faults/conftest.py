@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import os
+import sys
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from typing import Any
 
@@ -93,3 +95,11 @@ async def bystander_of(
         return await Bystander(stack).start(node, await make_node("bystander"))
 
     return make
+
+
+@pytest.fixture
+def open_files() -> Callable[[], int]:
+    """How many files and sockets the process has open."""
+    if not sys.platform.startswith("linux"):
+        pytest.skip("needs /proc")
+    return lambda: len(os.listdir("/proc/self/fd"))

@@ -242,7 +242,9 @@ async def test_V12_what_a_handler_raises_is_the_text_of_the_error(node, bystande
 
 
 @pytest.mark.parametrize(
-    "answer", [{"message": 5}, {"no_such_field": 1}, 5, "text"], ids=["value", "field", "int", "str"]
+    "answer",
+    [{"message": 5}, {"no_such_field": 1}, 5, "text"],
+    ids=["value", "field", "int", "str"],
 )
 async def test_V12_a_response_that_cannot_be_sent_is_an_error_for_the_caller(
     node, bystander, caplog, answer

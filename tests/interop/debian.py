@@ -101,5 +101,6 @@ def environment(master_uri: str, home: Path) -> dict[str, str]:
     env["ROS_HOME"] = str(home)
     env["PATH"] = _system_path()
     env["PYTHONUNBUFFERED"] = "1"
+    env["PYTHONDONTWRITEBYTECODE"] = "1"
     env["LC_ALL"] = "C.UTF-8"
     return env

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import signal
 
 import pytest
 
@@ -91,8 +92,6 @@ async def test_a_killed_subscriber_does_not_disturb_our_publisher(
 @each_client
 async def test_a_stopped_subscriber_holds_up_nobody(under_rosmaster: World, client: str) -> None:
     """One process sleeps on its socket; ours goes on, drops and counts."""
-    import signal
-
     world = under_rosmaster
     topic = world.unique("image")
     async with (
@@ -155,25 +154,22 @@ async def test_a_killed_server(under_each: World, client: str, persistent: bool)
 
 async def test_a_server_killed_in_the_middle_of_a_call(under_rosmaster: World) -> None:
     """The request is not sent again, and the caller is told."""
-    import signal
-
     import aioros1
 
     world = under_rosmaster
     service = world.unique("flip")
-    process = await server(world, "rospy", service)
+    process = await world.rospy_ready("server", service, SET_BOOL, "--hang")
     async with (
         world.node("ours") as node,
         node.service_caller(service, SET_BOOL, persistent=True) as caller,
     ):
-        await caller.call(data=True, timeout=10)
-        process.signal(signal.SIGSTOP)
-        call = asyncio.ensure_future(caller.call(data=True, timeout=20))
-        await asyncio.sleep(0.2)
+        call = caller.send_request(data=True, timeout=20)
+        await process.wait_values("request")
         assert not call.done()
         await process.kill()
         with pytest.raises(aioros1.ServiceUnavailable):
             await call
+        assert process.values("request") == [{"data": True}]
         assert caller.is_open
 
 

@@ -138,9 +138,9 @@ async def test_roswtf_finds_nothing_wrong_with_us(under_each: World) -> None:
         await pub.wait_for_subscribers(2, timeout=15)
         result = await world.run("roswtf", timeout=40, code=None)
         assert "running graph rules" in result.text, result.text
-        # Static checks speak of the machine, graph checks of the nodes.
+        # What comes first is about the machine: Debian has neither rosdep nor the
+        # directory of ROS_ROOT. What the graph is told of must not be about us.
         graph = result.text.split("analyzing graph", 1)[1]
-        errors = graph.split("ERROR", 1)[1] if "ERROR" in graph else ""
-        for name in ("wtf_ours", "wtf_other", topic, service):
-            assert name not in errors, graph
-        assert "unconnected" not in graph.lower() or topic not in graph, graph
+        if "No errors or warnings" not in graph:
+            for name in ("wtf_ours", "wtf_other", topic, service):
+                assert name not in graph, graph

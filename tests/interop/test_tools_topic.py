@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from .ours import take, take_until
-from .processes import until
+from .processes import Process, until
 from .world import World
+
+if TYPE_CHECKING:
+    import aioros1
 
 STRING = "std_msgs/String"
 
@@ -115,14 +120,8 @@ async def test_hz(under_each: World) -> None:
     topic = world.unique("hz")
     async with world.node("ours") as node, node.advertise(topic, STRING) as pub:
         tool = world.start("rostopic", "hz", topic)
-        await pub.wait_for_subscribers(timeout=15)
-        async for _ in node.rate(50):
-            pub.publish(data="x")
-            match = re.search(r"average rate: ([0-9.]+)", tool.stdout)
-            if match:
-                break
-            assert tool.code is None, tool.report()
-        assert 30 < float(match[1]) < 60
+        rate = await publish_until(tool, r"average rate: ([0-9.]+)", node, pub, "x")
+        assert 30 < float(rate[1]) < 60
 
 
 async def test_bw(under_rosmaster: World) -> None:
@@ -130,15 +129,24 @@ async def test_bw(under_rosmaster: World) -> None:
     topic = world.unique("bw")
     async with world.node("ours") as node, node.advertise(topic, STRING) as pub:
         tool = world.start("rostopic", "bw", topic)
-        await pub.wait_for_subscribers(timeout=15)
+        mean = await publish_until(tool, r"mean: ([0-9.]+K?B)", node, pub, "x" * 996)
+        # The characters, and the four bytes before them that tell their number.
+        assert mean[1] == "1.00KB"
+
+
+async def publish_until(
+    tool: Process, pattern: str, node: aioros1.Node, pub: aioros1.Publisher[Any], text: str
+) -> re.Match[str]:
+    """Publish 50 times a second until the tool has written ``pattern``."""
+    await pub.wait_for_subscribers(timeout=15)
+    async with asyncio.timeout(20):
         async for _ in node.rate(50):
-            pub.publish(data="x" * 96)
-            match = re.search(r"mean: ([0-9.]+)(K?B)", tool.stdout)
+            pub.publish(data=text)
+            match = re.search(pattern, tool.stdout)
             if match:
-                break
+                return match
             assert tool.code is None, tool.report()
-        # What came over the wire: four bytes of length and the characters.
-        assert (match[1], match[2]) == ("100.00", "B") or match[2] == "KB"
+    raise AssertionError(tool.report())
 
 
 async def test_relay(under_each: World) -> None:
@@ -175,11 +183,12 @@ async def test_throttle(under_rosmaster: World) -> None:
         world.start("/usr/lib/topic_tools/throttle", "messages", source, "20", sink)
         await pub.wait_for_subscribers(timeout=15)
         sent = 0
-        async for _ in node.rate(200):
-            pub.publish(data=f"number {sent}")
-            sent += 1
-            if sub.queued >= 5:
-                break
+        async with asyncio.timeout(15):
+            async for _ in node.rate(200):
+                pub.publish(data=f"number {sent}")
+                sent += 1
+                if sub.queued >= 5:
+                    break
         messages = await take(sub, 5)
         numbers = [int(m.data.split()[1]) for m in messages]
         assert numbers == sorted(set(numbers))

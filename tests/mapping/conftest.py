@@ -43,6 +43,15 @@ def unused_port() -> Iterator[int]:
 
 
 @pytest.fixture
+def silent_port() -> Iterator[int]:
+    """A port where every connection is made, and nobody ever says a word."""
+    with socket.socket() as sock:
+        sock.bind(("127.0.0.1", 0))
+        sock.listen()
+        yield sock.getsockname()[1]
+
+
+@pytest.fixture
 def keep_log_level() -> Iterator[Callable[[logging.Logger], None]]:
     """``keep_log_level(logger)``: what the test does to its level is undone."""
     with contextlib.ExitStack() as stack:
@@ -66,9 +75,10 @@ class Recorder:
         body = await request.read()
         method, params = decode_call(body)
         self.calls.append((method, *params))
+        headers = {"Content-Type": "text/xml"}
         async with (
             aiohttp.ClientSession() as session,
-            session.post(self._master_uri, data=body, headers={"Content-Type": "text/xml"}) as answer,
+            session.post(self._master_uri, data=body, headers=headers) as answer,
         ):
             return web.Response(body=await answer.read(), content_type="text/xml")
 
@@ -136,9 +146,7 @@ def tcpros() -> Callable[..., contextlib.AbstractAsyncContextManager[TcprosPeer]
     """``async with tcpros(address, fields) as peer``: connected, and hands shaken."""
 
     @contextlib.asynccontextmanager
-    async def tcpros(
-        address: tuple[str, int], fields: dict[str, str]
-    ) -> AsyncIterator[TcprosPeer]:
+    async def tcpros(address: tuple[str, int], fields: dict[str, str]) -> AsyncIterator[TcprosPeer]:
         rows = [f"{name}={value}".encode() for name, value in fields.items()]
         body = b"".join(struct.pack("<I", len(row)) + row for row in rows)
         reader, writer = await asyncio.open_connection(*address)

@@ -20,7 +20,10 @@ from aioros1.srv.std_srvs import SetBool
 async def rude_server(answer=b""):
     """A server that answers anything with ``answer``, and closes."""
 
+    serving = set()
+
     async def serve(reader, writer):
+        serving.add(asyncio.current_task())
         with contextlib.suppress(ConnectionError):
             await reader.read(1)
             writer.write(answer)
@@ -29,6 +32,7 @@ async def rude_server(answer=b""):
 
     async with await asyncio.start_server(serve, "127.0.0.1", 0) as server:
         yield server.sockets[0].getsockname()[1]
+        await asyncio.wait(serving, timeout=5)
 
 
 # ------------------------------------------------------------------ cRosErrCodePack
@@ -71,7 +75,7 @@ async def test_text_of_an_error(make_node, function):
 async def test_cRosErrCodePack_of_several_errors_is_an_ExceptionGroup(make_node):
     """As everything of asyncio: a TaskGroup collects them."""
     node = await make_node()
-    with pytest.raises(ExceptionGroup) as caught:  # noqa: PT012 - the group raises at its end
+    with pytest.raises(ExceptionGroup) as caught:
         async with asyncio.TaskGroup() as group:
             group.create_task(node.get_param("one"))
             group.create_task(node.get_param("two"))
@@ -201,17 +205,12 @@ def test_DEPACK_NO_MSG_DEF():
 # ------------------------------------------------------------------ timeouts
 
 
-async def test_UNREG_TIMEOUT_is_not_raised(make_node):
+async def test_UNREG_TIMEOUT_is_not_raised(make_node, silent_port):
     """A node that cannot say good-bye in time is closed all the same, and logs it."""
     node = await make_node()
     await node.advertise("chatter", String)
-
-    async def say_nothing(reader, writer):
-        await reader.read()
-        writer.close()
-
-    async with await asyncio.start_server(say_nothing, "127.0.0.1", 0) as server:
-        node.master.uri = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}/"
+    node.master.uri = f"http://127.0.0.1:{silent_port}/"
+    async with asyncio.timeout(5):
         await node.close(timeout=0.02)
     assert node.state == "closed"
 
@@ -261,7 +260,7 @@ async def test_TOP_PUB_CALLBACK(master):
     def fail(now):
         raise ZeroDivisionError("mine")
 
-    with pytest.raises(ZeroDivisionError, match="^mine$"):
+    with pytest.raises(ZeroDivisionError, match=r"^mine$"):
         async with aioros1.Node("talker", master_uri=master.uri) as node, asyncio.timeout(5):
             node.timer(0.001, fail, oneshot=True)
             await node.wait_closed()
@@ -288,7 +287,7 @@ async def test_TOP_SUB_CALLBACK(make_node):
         pub.publish(data=0)
         with pytest.raises(ZeroDivisionError):
             async for message in sub:
-                1 / message.data  # noqa: B018 - what a program does with it
+                1 / message.data
 
 
 @pytest.mark.parametrize("code", ["SVC_REQ_CALLBACK", "SVC_RES_CALLBACK"])
@@ -296,7 +295,7 @@ async def test_error_of_the_caller_is_raised_where_it_is(make_node, code):
     node = await make_node()
     await node.advertise_service("add", TwoInts, lambda request: None)
     async with node.service_caller("add", TwoInts) as caller:
-        with pytest.raises(aioros1.SerializationError, match="^a: "):
+        with pytest.raises(aioros1.SerializationError, match=r"^a: "):
             await caller.call(a="five", timeout=5)
         assert (await caller.call(timeout=5)).sum == 0
 
@@ -308,7 +307,7 @@ async def test_SVC_SER_CALLBACK(make_node):
         raise ZeroDivisionError("mine")
 
     await node.advertise_service("add", TwoInts, fail)
-    with pytest.raises(aioros1.ServiceError, match="^mine$"):
+    with pytest.raises(aioros1.ServiceError, match=r"^mine$"):
         await node.call("add", TwoInts, timeout=5)
 
 
@@ -344,7 +343,10 @@ async def test_master_that_is_not_there(unused_port, code):
 
 @pytest.mark.parametrize(
     ("code", "answer"),
-    [("XMLRPC_CLI_WRITE", b""), ("XMLRPC_CLI_READ", b"HTTP/1.1 200 OK\r\nContent-Length: 9\r\n\r\n")],
+    [
+        ("XMLRPC_CLI_WRITE", b""),
+        ("XMLRPC_CLI_READ", b"HTTP/1.1 200 OK\r\nContent-Length: 9\r\n\r\n"),
+    ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
 async def test_master_that_hangs_up(make_node, code, answer):

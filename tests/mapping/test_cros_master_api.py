@@ -101,47 +101,84 @@ async def test_registerService_and_unregisterService(node):
 # ------------------------------------------------------------------ callbacks and results
 
 CALLS = {
-    "LookupNode": (lambda node: node.master.lookup_node("/talker"), lambda uri: "http://" in uri),
-    "GetPublishedTopics": (
+    "LookupNodeCallback-LookupNodeResult": (
+        lambda node: node.master.lookup_node("/talker"),
+        lambda uri: "http://" in uri,
+    ),
+    "GetPublishedTopicsCallback-GetPublishedTopicsResult": (
         lambda node: node.master.get_published_topics(),
         lambda topics: ("/chatter", "std_msgs/String") in topics,
     ),
-    "GetTopicTypes": (
+    "GetTopicTypesCallback-GetTopicTypesResult": (
         lambda node: node.master.get_topic_types(),
-        lambda topics: [pair.type for pair in topics if pair.name == "/chatter"]
-        == ["std_msgs/String"],
+        lambda topics: (
+            [pair.type for pair in topics if pair.name == "/chatter"] == ["std_msgs/String"]
+        ),
     ),
-    "GetSystemState": (
+    "GetSystemStateCallback-GetSystemStateResult": (
         lambda node: node.master.get_system_state(),
         lambda state: state.publishers["/chatter"] == ["/talker"],
     ),
-    "GetUri": (lambda node: node.master.get_uri(), lambda uri: uri.startswith("http://")),
-    "LookupService": (
+    "GetUriCallback-GetUriResult": (
+        lambda node: node.master.get_uri(),
+        lambda uri: uri.startswith("http://"),
+    ),
+    "LookupServiceCallback-LookupServiceResult": (
         lambda node: node.master.lookup_service("/nothing"),
         lambda uri: uri.startswith("rosrpc://"),
     ),
-    "GetBusStats": (
+    "GetBusStatsCallback-GetBusStatsResult": (
         lambda node: to_peer(node, "get_bus_stats"),
         lambda stats: [topic.topic for topic in stats.publish] == ["/chatter"],
     ),
-    "GetBusInfo": (lambda node: to_peer(node, "get_bus_info"), lambda info: info == []),
-    "GetMasterUri": (lambda node: to_peer(node, "get_master_uri"), lambda uri: "http://" in uri),
-    "RequestShutdown": (lambda node: to_peer(node, "shutdown", "enough"), lambda none: none is None),
-    "GetPid": (lambda node: to_peer(node, "get_pid"), lambda pid: pid == os.getpid()),
-    "GetSubscriptions": (
+    "GetBusInfoCallback-GetBusInfoResult": (
+        lambda node: to_peer(node, "get_bus_info"),
+        lambda info: info == [],
+    ),
+    "GetMasterUriCallback-GetMasterUriResult": (
+        lambda node: to_peer(node, "get_master_uri"),
+        lambda uri: "http://" in uri,
+    ),
+    "RequestShutdownCallback-RequestShutdownResult": (
+        lambda node: to_peer(node, "shutdown", "enough"),
+        lambda none: none is None,
+    ),
+    "GetPidCallback-GetPidResult": (
+        lambda node: to_peer(node, "get_pid"),
+        lambda pid: pid == os.getpid(),
+    ),
+    "GetSubscriptionsCallback-GetSubscriptionsResult": (
         lambda node: to_peer(node, "get_subscriptions"),
         lambda topics: topics == [("/orders", "std_msgs/String")],
     ),
-    "GetPublications": (
+    "GetPublicationsCallback-GetPublicationsResult": (
         lambda node: to_peer(node, "get_publications"),
         lambda topics: topics == [("/chatter", "std_msgs/String")],
     ),
-    "DeleteParam": (lambda node: node.delete_param("/rate"), lambda none: none is None),
-    "SetParam": (lambda node: node.set_param("/rate", 20), lambda none: none is None),
-    "GetParam": (lambda node: node.get_param("/rate"), lambda value: value == 10),
-    "SearchParam": (lambda node: node.search_param("rate"), lambda key: key == "/rate"),
-    "HasParam": (lambda node: node.has_param("/rate"), lambda has: has is True),
-    "GetParamNames": (lambda node: node.get_param_names(), lambda names: "/rate" in names),
+    "DeleteParamCallback-DeleteParamResult": (
+        lambda node: node.delete_param("/rate"),
+        lambda none: none is None,
+    ),
+    "SetParamCallback-SetParamResult": (
+        lambda node: node.set_param("/rate", 20),
+        lambda none: none is None,
+    ),
+    "GetParamCallback-GetParamResult": (
+        lambda node: node.get_param("/rate"),
+        lambda value: value == 10,
+    ),
+    "SearchParamCallback-SearchParamResult": (
+        lambda node: node.search_param("rate"),
+        lambda key: key == "/rate",
+    ),
+    "HasParamCallback-HasParamResult": (
+        lambda node: node.has_param("/rate"),
+        lambda has: has is True,
+    ),
+    "GetParamNamesCallback-GetParamNamesResult": (
+        lambda node: node.get_param_names(),
+        lambda names: "/rate" in names,
+    ),
 }
 
 
@@ -149,7 +186,7 @@ async def to_peer(node, method, *args):
     return await getattr(await node.peer("/talker"), method)(*args)
 
 
-@pytest.mark.parametrize("name", CALLS, ids=[f"{name}Callback-{name}Result" for name in CALLS])
+@pytest.mark.parametrize("name", CALLS)
 async def test_awaited_value_replaces_callback_and_result(node, name):
     """The value that is awaited is what the callback was given."""
     call, is_right = CALLS[name]
@@ -184,3 +221,13 @@ async def test_ProviderState_is_a_dict_of_lists(node):
     for part in await node.master.get_system_state():
         assert isinstance(part, dict)
         assert all(isinstance(nodes, list) for nodes in part.values())
+
+
+@pytest.mark.parametrize("function", ["cRosApiPrepareRequest", "cRosApiParseResponse"])
+async def test_request_of_any_method(node, master, function):
+    assert await node.master.call("getUri") == master.uri
+
+
+async def test_isRosMasterApi(node):
+    with pytest.raises(aioros1.MasterError, match="publisherUpdate"):
+        await node.master.call("publisherUpdate", "/orders", [])

@@ -20,16 +20,16 @@ from aioros1.msg.rosgraph_msgs import Log
 from aioros1.msg.std_msgs import Header, String
 
 NUMBERS = {
-    "Int8": ("int8", -5),
-    "Int16": ("int16", -500),
-    "Int32": ("int32", -70000),
-    "Int64": ("int64", -(2**40)),
-    "UInt8": ("uint8", 200),
-    "UInt16": ("uint16", 60000),
-    "UInt32": ("uint32", 2**32 - 1),
-    "UInt64": ("uint64", 2**64 - 1),
-    "Float32": ("float32", 0.5),
-    "Float64": ("float64", 0.1),
+    "int8": -5,
+    "int16": -500,
+    "int32": -70000,
+    "int64": -(2**40),
+    "uint8": 200,
+    "uint16": 60000,
+    "uint32": 2**32 - 1,
+    "uint64": 2**64 - 1,
+    "float32": 0.5,
+    "float64": 0.1,
 }
 
 
@@ -223,33 +223,31 @@ def test_cRosMessageGetField():
 
 
 @pytest.mark.parametrize(
-    ("type", "value"),
+    ("member", "type", "value"),
     [
-        *NUMBERS.values(),
-        ("string", "ü"),
-        ("std_msgs/String", String(data="x")),
-        ("int8[]", array("b", [1, -1])),
-        ("uint8[]", b"\1\xff"),
-        ("float32[]", array("f", [1.5])),
-        ("string[]", ["a", "b"]),
-        ("std_msgs/String[]", [String(data="x")]),
-        ("time[]", [aioros1.Time(1, 2)]),
-        ("bool[]", [True, False]),
+        ("as_int8", "int8", -5),
+        ("as_int16", "int16", -500),
+        ("as_int32", "int32", -70000),
+        ("as_int64", "int64", -(2**40)),
+        ("as_uint8", "uint8", 200),
+        ("as_uint16", "uint16", 60000),
+        ("as_uint32", "uint32", 2**32 - 1),
+        ("as_uint64", "uint64", 2**64 - 1),
+        ("as_float32", "float32", 0.5),
+        ("as_float64", "float64", 0.1),
+        ("as_string", "string", "ü"),
+        ("as_msg", "std_msgs/String", String(data="x")),
+        ("as_int8_array", "int8[]", array("b", [1, -1])),
+        ("as_uint8_array", "uint8[]", b"\1\xff"),
+        ("as_float32_array", "float32[]", array("f", [1.5])),
+        ("as_string_array", "string[]", ["a", "b"]),
+        ("as_msg_array", "std_msgs/String[]", [String(data="x")]),
+        ("as_array", "time[]", [aioros1.Time(1, 2)]),
+        ("opaque", "bool[]", [True, False]),
     ],
-    ids=[
-        *(f"as_{type}" for type, _ in NUMBERS.values()),
-        "as_string",
-        "as_msg",
-        "as_int8_array",
-        "as_uint8_array",
-        "as_float32_array",
-        "as_string_array",
-        "as_msg_array",
-        "as_array",
-        "opaque",
-    ],
+    ids=lambda value: value if isinstance(value, str) and value[:3] in ("as_", "opa") else "",
 )
-def test_field_value(type, value):
+def test_field_value(member, type, value):
     found = again(define(f"{type} v\n")(v=value)).v
     assert found == value
     if not isinstance(value, Message | list):
@@ -257,13 +255,24 @@ def test_field_value(type, value):
 
 
 @pytest.mark.parametrize(
-    ("kind", "type", "value"),
-    [(kind, *row) for kind, row in NUMBERS.items()],
-    ids=[f"cRosMessageFieldArrayPushBack{kind}" for kind in NUMBERS],
+    ("function", "type"),
+    [
+        ("cRosMessageFieldArrayPushBackInt8", "int8"),
+        ("cRosMessageFieldArrayPushBackInt16", "int16"),
+        ("cRosMessageFieldArrayPushBackInt32", "int32"),
+        ("cRosMessageFieldArrayPushBackInt64", "int64"),
+        ("cRosMessageFieldArrayPushBackUInt8", "uint8"),
+        ("cRosMessageFieldArrayPushBackUInt16", "uint16"),
+        ("cRosMessageFieldArrayPushBackUInt32", "uint32"),
+        ("cRosMessageFieldArrayPushBackUInt64", "uint64"),
+        ("cRosMessageFieldArrayPushBackFloat32", "float32"),
+        ("cRosMessageFieldArrayPushBackFloat64", "float64"),
+    ],
+    ids=lambda value: value if value.startswith("cRos") else "",
 )
-def test_appending_a_number(kind, type, value):
-    message = define(f"{type}[] v\n")()
-    if kind == "UInt8":  # bytes, which grow by being replaced
+def test_appending_a_number(function, type):
+    message, value = define(f"{type}[] v\n")(), NUMBERS[type]
+    if type == "uint8":  # bytes, which grow by being replaced
         message.v += bytes([value])
     else:
         message.v.append(value)
@@ -299,16 +308,26 @@ def test_cRosMessageFieldArrayPushBackZero():
 
 
 @pytest.mark.parametrize(
-    ("kind", "type", "value"),
-    [(kind, *row) for kind, row in NUMBERS.items()],
-    ids=[f"cRosMessageFieldArrayAt{kind}" for kind in NUMBERS],
+    ("function", "type"),
+    [
+        ("cRosMessageFieldArrayAtInt8", "int8"),
+        ("cRosMessageFieldArrayAtInt16", "int16"),
+        ("cRosMessageFieldArrayAtInt32", "int32"),
+        ("cRosMessageFieldArrayAtInt64", "int64"),
+        ("cRosMessageFieldArrayAtUInt8", "uint8"),
+        ("cRosMessageFieldArrayAtUInt16", "uint16"),
+        ("cRosMessageFieldArrayAtUInt32", "uint32"),
+        ("cRosMessageFieldArrayAtUInt64", "uint64"),
+        ("cRosMessageFieldArrayAtFloat32", "float32"),
+        ("cRosMessageFieldArrayAtFloat64", "float64"),
+    ],
+    ids=lambda value: value if value.startswith("cRos") else "",
 )
-def test_element_of_an_array_of_numbers(kind, type, value):
-    message = define(f"{type}[3] v\n")()
-    if kind == "UInt8":
+def test_element_of_an_array_of_numbers(function, type):
+    message, value = define(f"{type}[3] v\n")(), NUMBERS[type]
+    if type == "uint8":
         message.v = bytearray(message.v)
     message.v[1] = value
-    assert again(message).v[1] == value
     assert list(again(message).v) == [0, value, 0]
 
 
@@ -420,9 +439,7 @@ def test_constants(function):
     assert (constant.type, constant.name, constant.value) == ("string", "NAME", "a # b")
 
 
-@pytest.mark.parametrize(
-    "function", ["initCrosMsg", "initCrosDep", "initFieldDef", "initCrosSrv"]
-)
+@pytest.mark.parametrize("function", ["initCrosMsg", "initCrosDep", "initFieldDef", "initCrosSrv"])
 def test_definition_as_data(function):
     spec = parse_message("car_msgs/Car", "Header header\nWheel[4] wheels\n")
     assert [(field.name, field.base_type, field.array_len) for field in spec.fields] == [

@@ -15,6 +15,7 @@ import pytest
 
 import aioros1
 from aioros1.msg.std_msgs import String
+from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.srv.std_srvs import Empty
 
 # ------------------------------------------------------------------ cRosNodeCreate
@@ -294,19 +295,13 @@ async def test_cRosNodeDestroy_when_the_master_is_gone(master, make_node):
         await asyncio.open_connection(*node.tcpros_address)
 
 
-async def test_cRosNodeDestroy_gives_up_on_a_master_that_is_silent(make_node):
+async def test_cRosNodeDestroy_gives_up_on_a_master_that_is_silent(make_node, silent_port):
     """CN_UNREGISTRATION_TIMEOUT: what cannot be told in time is dropped."""
     node = await make_node()
     await open_one_of_each(node)
-
-    async def say_nothing(reader, writer):
-        await reader.read()
-        writer.close()
-
-    async with await asyncio.start_server(say_nothing, "127.0.0.1", 0) as server:
-        node.master.uri = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}/"
-        async with asyncio.timeout(5):
-            await node.close(timeout=0.05)
+    node.master.uri = f"http://127.0.0.1:{silent_port}/"
+    async with asyncio.timeout(5):
+        await node.close(timeout=0.05)
     assert node.state == "closed"
 
 
@@ -367,9 +362,14 @@ def test_CN_PING_LOOP_PERIOD():
 async def test_restartAdversing_registers_every_role_with_the_next_master():
     async with aioros1.Master(host="localhost", port=0) as master:
         port = master.port
-        node = aioros1.Node("talker", master_uri=master.uri, host="localhost", heartbeat=0.02)
+        node = aioros1.Node(
+            "talker",
+            master_uri=master.uri,
+            rosout=False,
+            logger_services=False,
+            heartbeat=0.02,
+        )
         await node.start()
-        await node.wait_for_master(timeout=5)
         await open_one_of_each(node)
         events = node.events()
     try:
@@ -510,20 +510,14 @@ async def test_CN_IO_TIMEOUT_of_a_handshake(make_node):
     await writer.wait_closed()
 
 
-async def test_CN_IO_TIMEOUT_of_a_request_to_a_node(make_node):
-    other = await make_node("other")
-    await other.advertise("chatter", String)
-    node = await make_node(timeouts=aioros1.Timeouts(xmlrpc=0.2))
-    peer = await node.peer("/other")
-
-    async def say_nothing(reader, writer):
-        await reader.read()
-        writer.close()
-
-    async with await asyncio.start_server(say_nothing, "127.0.0.1", 0) as server:
-        peer.uri = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}/"
+async def test_CN_IO_TIMEOUT_of_a_request_to_a_node(silent_port):
+    client = XmlRpcClient(timeouts=aioros1.Timeouts(xmlrpc=0.02))
+    peer = aioros1.NodeProxy(client, f"http://127.0.0.1:{silent_port}/", "/node")
+    try:
         with pytest.raises(aioros1.PeerUnreachable):
             await peer.get_pid()
+    finally:
+        await client.close()
 
 
 # ------------------------------------------------------------------ the rest

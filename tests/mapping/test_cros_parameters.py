@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import datetime
 
 import pytest
@@ -70,6 +71,19 @@ async def test_cRosApiDeleteParam(make_node):
         await node.delete_param("gains/p")
 
 
+async def test_cRosApiDeleteParam_is_seen_once_by_whoever_does_it(pair):
+    """The master tells of a deletion to the one who asked for it, too."""
+    deleter, other = pair
+    async with deleter.subscribe_param("rate", default=0) as psub, asyncio.timeout(5):
+        await deleter.set_param("rate", 1)
+        await deleter.delete_param("rate")
+        await other.set_param("rate", 2)
+        updates = [(await anext(psub)).value]
+        while updates[-1] != 2:
+            updates.append((await anext(psub)).value)
+        assert updates == [1, {}, 2]
+
+
 async def test_cRosApiGetParamNames(make_node):
     node = await make_node()
     await node.set_param("gains", {"p": 1, "i": 2})
@@ -111,7 +125,7 @@ async def test_cRosApiSubscribeParam_sees_a_deletion(pair):
         assert await psub.wait_for(lambda rate: rate != 10, timeout=5) == 1
 
 
-async def test_cRosApiUnsubscribeParam_ends_the_updates(pair, until):
+async def test_cRosApiUnsubscribeParam_ends_the_updates(pair):
     setter, follower = pair
     psub = await follower.subscribe_param("rate", default=1)
     async with follower.subscribe_param("other", default=1) as other:

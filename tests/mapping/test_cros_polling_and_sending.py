@@ -14,7 +14,8 @@ from aioros1.msg.std_msgs import Int32, String, UInt8MultiArray
 from aioros1.srv.roscpp_tutorials import TwoInts
 
 BIG = bytes(1_000_000)
-"""More than fits anywhere between a publisher and a subscriber that does not read."""
+MANY = 64
+"""So many of these are more than the sockets between two nodes hold."""
 
 
 @contextlib.asynccontextmanager
@@ -30,16 +31,12 @@ async def connected(pair, type=Int32, *, publish=(), **subscribe):
 
 
 @contextlib.asynccontextmanager
-async def stuck(pair, **publish):
-    """A publisher whose only subscriber takes nothing more, and that subscriber."""
+async def unread(pair, **publish):
+    """A publisher, and a subscriber that reads no further than its first message."""
     async with connected(
         pair, UInt8MultiArray, publish=publish, overflow="block", queue_size=1
-    ) as (pub, sub):
-        async with asyncio.timeout(10):
-            with contextlib.suppress(TimeoutError):
-                while True:
-                    await pub.send(data=BIG, timeout=0.05)
-        yield pub, sub
+    ) as roles:
+        yield roles
 
 
 # ------------------------------------------------------------------ cRosNodeReceiveTopicMsg
@@ -118,30 +115,36 @@ async def test_cRosNodeSendTopicMsg(pair):
 
 
 async def test_cRosNodeSendTopicMsg_with_timeout_while_the_queue_is_full(pair):
-    async with stuck(pair, queue_size=2) as (pub, _):
+    async with unread(pair, queue_size=2) as (pub, _), asyncio.timeout(10):
         with pytest.raises(TimeoutError, match="no room in the queue of a subscriber"):
-            await pub.send(data=b"late", timeout=0.01)
+            while True:
+                await pub.send(data=BIG, timeout=0.05)
         assert pub.dropped == 0
 
 
 async def test_cRosNodeSendTopicMsg_goes_on_when_there_is_room(pair):
-    async with stuck(pair, queue_size=2) as (pub, sub):
-        sending = asyncio.create_task(pub.send(data=b"at last", timeout=5))
-        async with asyncio.timeout(5):
-            while (message := await sub.get()).data == BIG:
-                pass
-        assert message.data == b"at last"
+    async with unread(pair, queue_size=2) as (pub, sub), asyncio.timeout(10):
+
+        async def send():
+            for number in range(MANY):
+                await pub.send(data=BIG[number:])
+
+        sending = asyncio.create_task(send())
+        lengths = [len((await sub.get()).data) for _ in range(MANY)]
         await sending
+        assert lengths == [len(BIG) - number for number in range(MANY)]
+        assert pub.dropped == 0
 
 
 async def test_cRosNodeSendTopicMsg_then_drain(pair):
     """Nothing waits in the program any more once ``drain`` has returned."""
-    async with stuck(pair, queue_size=2) as (pub, sub):
+    async with unread(pair, queue_size=MANY) as (pub, sub):
+        for _ in range(MANY):
+            pub.publish(data=BIG)
         with pytest.raises(TimeoutError, match="did not take all"):
             await pub.drain(timeout=0.01)
-        draining = asyncio.create_task(pub.drain(timeout=5))
-        sent = pub.stats.messages
-        for _ in range(sent):
+        draining = asyncio.create_task(pub.drain(timeout=10))
+        for _ in range(MANY):
             await sub.get(timeout=5)
         await draining
 
@@ -154,25 +157,30 @@ async def test_cRosNodeQueueTopicMsg_never_waits(pair, until):
 
 
 async def test_cRosNodeQueueTopicMsg_fails_when_the_queue_is_full(pair):
-    async with stuck(pair, queue_size=2, overflow="block") as (pub, _):
-        published = pub.stats.messages
+    async with unread(pair, queue_size=2, overflow="block") as (pub, sub):
         with pytest.raises(asyncio.QueueFull):
-            pub.publish(data=b"late")
-        assert pub.stats.messages == published
+            for _ in range(MANY):
+                pub.publish(data=BIG)
+        published = pub.stats.messages
+        assert pub.dropped == 0
+        for _ in range(published):
+            await sub.get(timeout=5)
+        pub.publish(data=b"room again")
+        assert (await sub.get(timeout=5)).data == b"room again"
 
 
 async def test_cRosNodeQueueTopicMsg_drops_the_oldest_by_default(pair):
-    async with stuck(pair, queue_size=2) as (pub, sub):
-        for number in range(3):
-            pub.publish(data=bytes([number]))
-        assert pub.dropped == 3
-        kept = []
-        async with asyncio.timeout(5):
-            while len(kept) < 2:
-                message = await sub.get()
-                if message.data != BIG:
-                    kept.append(message.data)
-        assert kept == [b"\1", b"\2"]
+    async with unread(pair, queue_size=2) as (pub, sub), asyncio.timeout(10):
+        for _ in range(MANY):
+            pub.publish(data=BIG)
+        for word in (b"one", b"two", b"three"):
+            pub.publish(data=word)
+        dropped = pub.dropped
+        heard = [(await sub.get()).data]
+        while heard[-1] != b"three":
+            heard.append((await sub.get()).data)
+        assert [data for data in heard if data != BIG] == [b"two", b"three"]
+        assert dropped == pub.dropped == MANY + 3 - len(heard)
 
 
 # ------------------------------------------------------------------ calling

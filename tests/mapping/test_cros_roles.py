@@ -289,7 +289,7 @@ async def test_ServiceProviderApiCallback_that_fails_says_why(pair):
 
     server, client = pair
     await server.advertise_service("flip", SetBool, refuse)
-    with pytest.raises(aioros1.ServiceError, match="^the gripper is open$"):
+    with pytest.raises(aioros1.ServiceError, match=r"^the gripper is open$"):
         await client.call("flip", SetBool, data=True, timeout=5)
 
 

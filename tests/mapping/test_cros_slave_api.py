@@ -195,16 +195,15 @@ async def test_slave_method_paramUpdate(peer, pair):
 
 async def test_slave_method_publisherUpdate_connects(peer, pair):
     """A publisher that another node, and not the master, tells of."""
-    talker, listener = pair
-    [sub] = [role for role in talker.roles if isinstance(role, aioros1.Subscriber)]
-    async with aioros1.Master(host="localhost", port=0) as elsewhere:
-        async with (
-            aioros1.Node("far", master_uri=elsewhere.uri, rosout=False) as far,
-            far.advertise("orders", String, latch=True) as pub,
-        ):
-            pub.publish(data="go")
-            assert await peer.call("publisherUpdate", "/orders", [far.uri]) == 0
-            assert (await sub.get(timeout=5)).data == "go"
+    [sub] = [role for role in pair[0].roles if isinstance(role, aioros1.Subscriber)]
+    async with (
+        aioros1.Master(host="localhost", port=0) as elsewhere,
+        aioros1.Node("far", master_uri=elsewhere.uri, rosout=False) as far,
+        far.advertise("orders", String, latch=True) as pub,
+    ):
+        pub.publish(data="go")
+        assert await peer.call("publisherUpdate", "/orders", [far.uri]) == 0
+        assert (await sub.get(timeout=5)).data == "go"
 
 
 async def test_slave_method_shutdown(peer, pair):
@@ -214,22 +213,24 @@ async def test_slave_method_shutdown(peer, pair):
 
 async def test_slave_method_system_multicall(peer, pair):
     """Several methods in one request; it takes no name of a caller."""
-    talker, listener = pair
-    peer_calls = [
+    talker, _ = pair
+    calls = [
         {"methodName": "getPid", "params": ["/listener"]},
         {"methodName": "getUri", "params": ["/listener"]},
     ]
     client = XmlRpcClient()
     try:
-        answers = await client.call(talker.uri, "system.multicall", peer_calls)
+        answers = await client.call(talker.uri, "system.multicall", calls)
     finally:
         await client.close()
     assert [answer[0][2] for answer in answers] == [os.getpid(), talker.uri]
 
 
-async def test_slave_method_that_does_not_exist_is_a_fault(peer):
-    with pytest.raises(aioros1.PeerError):
-        await peer.call("getEverything")
+@pytest.mark.parametrize("function", ["getMethodName", "getMethodCode", "isRosSlaveApi"])
+async def test_method_that_nodes_do_not_have_is_a_fault(peer, function):
+    for method in ("getEverything", "registerPublisher", ""):
+        with pytest.raises(aioros1.PeerError):
+            await peer.call(method)
 
 
 async def test_slave_method_with_wrong_parameters_is_code_minus_one(peer):

@@ -8,6 +8,7 @@ import asyncio
 import copy
 import datetime
 import xmlrpc.client
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -265,12 +266,23 @@ def test_parseXmlrpcMessage_of_what_is_none():
             decode_call(document)
 
 
-async def test_xmlrpcProcess_serves_request_after_request_on_one_connection(make_node):
-    """xmlrpcProcessInit, Clear, Reset, ChangeState, Release: what HTTP does for us."""
+@pytest.mark.parametrize(
+    "function",
+    [
+        "xmlrpcProcessInit",
+        "xmlrpcProcessRelease",
+        "xmlrpcProcessClear",
+        "xmlrpcProcessReset",
+        "xmlrpcProcessChangeState",
+        "cRosApiParseRequestPrepareResponse",
+    ],
+)
+async def test_request_after_request_on_one_connection(make_node, function):
+    """By hand, as any program may speak HTTP."""
     node = await make_node("talker")
     body = xmlrpc.client.dumps(("/by_hand",), "getUri").encode()
     head = f"POST /RPC2 HTTP/1.1\r\nHost: localhost\r\nContent-Length: {len(body)}\r\n\r\n"
-    reader, writer = await asyncio.open_connection(*node.tcpros_address[:1], port_of(node))
+    reader, writer = await asyncio.open_connection("127.0.0.1", urlsplit(node.uri).port)
     try:
         for _ in range(3):
             writer.write(head.encode() + body)
@@ -283,7 +295,3 @@ async def test_xmlrpcProcess_serves_request_after_request_on_one_connection(make
     finally:
         writer.close()
         await writer.wait_closed()
-
-
-def port_of(node):
-    return int(node.uri.rstrip("/").rpartition(":")[2])

@@ -1,0 +1,416 @@
+"""How things end: roles, nodes, and everybody who waits for one of them."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import subprocess
+import sys
+
+import pytest
+
+import aioros1
+from aioros1.msg.std_msgs import String
+from aioros1.srv.std_srvs import SetBool
+
+from .peers import FakePeer, caller_header, dialled, flip_request, subscriber_header, until
+
+
+async def collect(iterator) -> list:
+    return [item async for item in iterator]
+
+
+async def started(*awaitables) -> list[asyncio.Task]:
+    """Tasks that have got as far as they can without anything happening."""
+    tasks = [asyncio.ensure_future(each) for each in awaitables]
+    for _ in range(5):
+        await asyncio.sleep(0)
+    assert not any(task.done() for task in tasks), "it should have to wait"
+    return tasks
+
+
+async def can_connect(address: tuple[str, int]) -> bool:
+    try:
+        _, writer = await asyncio.open_connection(*address)
+    except OSError:
+        return False
+    writer.close()
+    with contextlib.suppress(OSError):
+        await writer.wait_closed()
+    return True
+
+
+def xmlrpc_address(uri: str) -> tuple[str, int]:
+    host, port = uri.removeprefix("http://").rstrip("/").split(":")
+    return host, int(port)
+
+
+# trap 6: every loop ends
+
+
+@pytest.mark.parametrize("what", ["role", "node"])
+@pytest.mark.parametrize("kind", ["subscriber", "events", "provider", "param"])
+async def test_trap_6_a_loop_over_a_role_ends_when_it_closes(make_node, kind, what):
+    node = await make_node()
+    role: aioros1.Role  # type: ignore[name-defined]
+    if kind == "provider":
+        role = await node.advertise_service("flip", SetBool)
+    elif kind == "param":
+        role = await node.subscribe_param("speed")
+    else:
+        role = await node.subscribe("chatter", String)
+    loops = await started(
+        collect(role.events() if kind == "events" else role),
+        collect(role.events() if kind == "events" else role),
+    )
+    await (role if what == "role" else node).close()
+    async with asyncio.timeout(5):
+        assert await asyncio.gather(*loops) == [[], []]
+    # And one that begins afterwards ends at once.
+    async with asyncio.timeout(5):
+        assert await collect(role.events() if kind == "events" else role) == []
+
+
+async def test_trap_6_loops_over_the_node_end_with_it(make_node):
+    node = await make_node()
+    loops = await started(collect(node.events()), collect(node.rate(0.01)))
+    changes = asyncio.create_task(collect(node.graph.changes()))
+    await node.close()
+    async with asyncio.timeout(5):
+        await asyncio.gather(*loops, changes)
+
+
+async def test_trap_6_a_loop_ends_when_the_node_is_shut_down_by_others(make_node):
+    node, other = await make_node(), await make_node("other")
+    sub = await node.subscribe("chatter", String)
+    (loop,) = await started(collect(sub))
+    await (await other.peer("/node")).shutdown("enough")
+    async with asyncio.timeout(5):
+        assert await loop == []
+
+
+# trap 7: everybody who waits gets a closed error, and no cancellation
+
+
+WAITS = {
+    "get": lambda sub, pub, psub, caller: sub.get(),
+    "wait_for_publishers": lambda sub, pub, psub, caller: sub.wait_for_publishers(9),
+    "wait_for_subscribers": lambda sub, pub, psub, caller: pub.wait_for_subscribers(9),
+    "wait_for": lambda sub, pub, psub, caller: psub.wait_for(lambda value: value == 9),
+}
+
+
+@pytest.mark.parametrize("wait", WAITS.values(), ids=WAITS.keys())
+@pytest.mark.parametrize("what", ["role", "node"])
+@pytest.mark.parametrize("company", [False, True], ids=["alone", "with others"])
+async def test_trap_7_who_waits_for_a_role_gets_a_closed_error(make_node, wait, what, company):
+    """Also when another role of the same name goes on living."""
+    node = await make_node()
+    async with contextlib.AsyncExitStack() as stack:
+        others = []
+        for _ in range(2 if company else 1):
+            others = [
+                await stack.enter_async_context(node.subscribe("chatter", String)),
+                await stack.enter_async_context(node.advertise("chatter", String)),
+                await stack.enter_async_context(node.subscribe_param("speed")),
+            ]
+        (waiting,) = await started(wait(*others, None))
+        if what == "node":
+            await node.close()
+        else:
+            for role in others:
+                await role.close()
+        with pytest.raises(aioros1.ClosedError):
+            await asyncio.wait_for(waiting, 5)
+
+
+@pytest.mark.parametrize("how", ["send", "drain"])
+@pytest.mark.parametrize("what", ["role", "node"])
+async def test_trap_7_who_waits_for_room_gets_a_closed_error(make_node, how, what):
+    node = await make_node(timeouts=aioros1.Timeouts(close=0.1))
+    pub = await node.advertise("chatter", String, queue_size=1)
+    async with dialled(node, subscriber_header()) as wire:
+        await wire.read_header()
+        wire.pause()
+        await pub.wait_for_subscribers(timeout=5)
+        with pytest.raises(TimeoutError):
+            while True:
+                await pub.send(data="x" * 500_000, timeout=0.05)
+        (waiting,) = await started(pub.send(data="more") if how == "send" else pub.drain())
+        await (pub if what == "role" else node).close()
+        with pytest.raises(aioros1.ClosedError):
+            await asyncio.wait_for(waiting, 5)
+
+
+@pytest.mark.parametrize("wait", ["wait_for_service", "sleep", "wait_for_message", "call"])
+async def test_trap_7_who_waits_for_something_of_the_node_gets_a_closed_error(make_node, wait):
+    node = await make_node()
+    waits = {
+        "wait_for_service": lambda: node.wait_for_service("nowhere"),
+        "sleep": lambda: node.sleep(100),
+        "wait_for_message": lambda: node.wait_for_message("nothing", String),
+        "call": lambda: node.call("busy", SetBool),
+    }
+    async with (await make_node("other")).advertise_service("busy", SetBool) as provider:
+        (waiting,) = await started(waits[wait]())
+        if wait == "call":
+            await anext(provider)
+        await node.close()
+        with pytest.raises(aioros1.ClosedError):
+            await asyncio.wait_for(waiting, 5)
+
+
+async def test_trap_7_a_deferred_call_fails_when_its_provider_closes(make_node):
+    node = await make_node()
+    provider = await node.advertise_service("flip", SetBool)
+    async with dialled(node, caller_header(), flip_request(True)) as wire:
+        await wire.read_header()
+        await asyncio.wait_for(anext(provider), 5)
+        await provider.close()
+        ok, text = await wire.answer()
+        assert ok == 0
+        assert b"shut down" in text
+
+
+async def test_closed_roles_say_so_and_why(make_node):
+    node = await make_node()
+    pub = await node.advertise("chatter", String)
+    sub = await node.subscribe("chatter", String)
+    caller = await node.service_caller("flip", SetBool)
+    await node.close()
+    for use in (
+        lambda: pub.publish(data="x"),
+        lambda: pub.publish_raw(b""),
+        sub.get_nowait,
+        lambda: caller.send_request(data=True),
+    ):
+        with pytest.raises(aioros1.ClosedError, match="closed"):
+            use()
+    for opening in (
+        node.advertise("chatter", String),
+        node.subscribe("chatter"),
+        node.advertise_service("flip", SetBool),
+        node.service_caller("flip", SetBool),
+        node.subscribe_param("speed"),
+    ):
+        with pytest.raises(aioros1.ClosedError):
+            await opening
+    assert not any(role.is_open for role in (pub, sub, caller))
+    assert node.connections == ()
+
+
+async def test_nothing_stays_registered(make_node):
+    node, other = await make_node(), await make_node("other")
+    await node.advertise("chatter", String)
+    await node.subscribe("chatter", String)
+    await node.advertise_service("flip", SetBool)
+    await node.close()
+    snapshot = await other.graph.snapshot()
+    assert "/node" not in snapshot.nodes
+
+
+# closing that is disturbed
+
+
+async def test_a_role_whose_closing_was_cancelled_is_unregistered_with_its_node(make_node):
+    node, other = await make_node(), await make_node("other")
+    pub = await node.advertise("chatter", String, queue_size=100)
+    async with dialled(node, subscriber_header()) as wire:
+        await wire.read_header()
+        wire.pause()
+        await pub.wait_for_subscribers(timeout=5)
+        for _ in range(50):
+            pub.publish(data="x" * 500_000)
+        (closing,) = await started(pub.close())
+        closing.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await closing
+    await node.close()
+    assert "/node" not in (await other.graph.snapshot()).nodes
+
+
+async def test_a_name_can_be_opened_again_after_a_cancelled_closing(make_node):
+    node, other = await make_node(), await make_node("other")
+    sub = await node.subscribe("chatter", String)
+    closing = asyncio.create_task(sub.close())
+    await asyncio.sleep(0)
+    closing.cancel()
+    with contextlib.suppress(asyncio.CancelledError):
+        await closing
+    async with (
+        node.subscribe("chatter", String) as again,
+        other.advertise("chatter", String) as pub,
+    ):
+        await pub.wait_for_subscribers(timeout=5)
+        await again.wait_for_publishers(timeout=5)
+        pub.publish(data="hi")
+        assert (await again.get(timeout=5)).data == "hi"
+    await node.close()
+    assert "/node" not in (await other.graph.snapshot()).nodes
+
+
+async def test_opening_that_is_cancelled_leaves_nothing_registered(make_node):
+    node, other = await make_node(), await make_node("other")
+    for opening in (
+        lambda: node.advertise("chatter", String),
+        lambda: node.subscribe("chatter", String),
+        lambda: node.advertise_service("flip", SetBool),
+    ):
+        for steps in range(12):
+            task = asyncio.ensure_future(_opened(opening()))
+            for _ in range(steps):
+                await asyncio.sleep(0)
+            task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await (await task).close()
+    assert node.roles == ()
+    assert "/node" not in (await other.graph.snapshot()).nodes
+
+
+async def _opened(opening):
+    return await opening
+
+
+async def test_closing_frees_everything_when_the_master_is_gone(make_node, master):
+    node = await make_node()
+    pub = await node.advertise("chatter", String)
+    await node.subscribe("other", String)
+    await node.advertise_service("flip", SetBool)
+    addresses = node.tcpros_address, xmlrpc_address(node.uri)
+    async with dialled(node, subscriber_header()) as wire:
+        await wire.read_header()
+        await pub.wait_for_subscribers(timeout=5)
+        await master.close()
+        async with asyncio.timeout(3):
+            await node.close()
+        assert await wire.is_closed()
+    assert not [address for address in addresses if await can_connect(address)]
+
+
+@pytest.fixture
+async def hung_master():
+    """Accepts connections and never answers; only what a node must have at its start."""
+    peer = FakePeer("http://127.0.0.1:1/", "/nobody")
+    await peer.start()
+    yield f"http://127.0.0.1:{peer.port}/"
+    await peer.close()
+
+
+async def test_closing_takes_no_longer_than_its_timeout_when_the_master_hangs(master, make_node):
+    node = await make_node()
+    pub = await node.advertise("chatter", String)
+    await node.advertise_service("flip", SetBool)
+    addresses = node.tcpros_address, xmlrpc_address(node.uri)
+
+    # From now on the master takes requests and answers none.
+    async def hang(*params):
+        await asyncio.Event().wait()
+
+    for name in ("unregisterPublisher", "unregisterService"):
+        master._server._methods[name] = (hang, 0, 9)
+    begin = asyncio.get_running_loop().time()
+    await node.close(timeout=0.2)
+    assert asyncio.get_running_loop().time() - begin < 2
+    assert not pub.is_open
+    assert not [address for address in addresses if await can_connect(address)]
+
+
+async def test_a_start_that_is_cancelled_frees_everything(hung_master):
+    node = aioros1.Node("node", master_uri=hung_master, host="localhost")
+    starting = asyncio.create_task(node.start())
+    await until(lambda: node._server.port and node._acceptor.port)
+    addresses = node.tcpros_address, xmlrpc_address(node.uri)
+    await asyncio.sleep(0.02)
+    starting.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await starting
+    assert not [address for address in addresses if await can_connect(address)]
+    await node.close()
+
+
+async def test_a_start_that_fails_frees_everything(make_node, master):
+    first = await make_node("first")
+    _, taken = xmlrpc_address(first.uri)
+    node = aioros1.Node("node", master_uri=master.uri, host="localhost", xmlrpc_port=taken)
+    with pytest.raises(OSError, match=str(taken)):
+        await node.start()
+    assert not await can_connect(("localhost", node._acceptor.port))
+    assert not node.is_open
+    await node.close()
+
+
+async def test_a_cancelled_close_goes_on_by_itself(make_node):
+    node, other = await make_node(timeouts=aioros1.Timeouts(close=0.2)), await make_node("other")
+    pub = await node.advertise("chatter", String, queue_size=100)
+    async with dialled(node, subscriber_header()) as wire:
+        await wire.read_header()
+        wire.pause()
+        await pub.wait_for_subscribers(timeout=5)
+        for _ in range(50):
+            pub.publish(data="x" * 500_000)
+        (closing,) = await started(node.close())
+        closing.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await closing
+        async with asyncio.timeout(5):
+            assert await node.wait_closed() == "closed"
+    assert node.state == "closed"
+    assert not await can_connect(node.tcpros_address)
+    assert other.is_open
+
+
+async def test_aborting_ends_everything_at_once(make_node):
+    node = await make_node()
+    pub = await node.advertise("chatter", String)
+    sub = await node.subscribe("chatter", String)
+    await sub.wait_for_publishers(timeout=5)
+    (loop,) = await started(collect(sub))
+    async with dialled(node, subscriber_header()) as wire:
+        await wire.read_header()
+        node.abort()
+        assert not pub.is_open
+        async with asyncio.timeout(5):
+            assert await loop == []
+            await node.wait_closed()
+        assert await wire.is_closed()
+    assert node.connections == ()
+
+
+async def test_closing_the_node_from_its_own_service_handler_ends(make_node):
+    node = await make_node(timeouts=aioros1.Timeouts(close=0.2))
+
+    async def handler(request):
+        await node.close()
+
+    await node.advertise_service("end", SetBool, handler)
+    async with dialled(node, caller_header("/end"), flip_request(True)) as wire:
+        await wire.read_header()
+        async with asyncio.timeout(5):
+            await node.wait_closed()
+        assert await wire.is_closed()
+
+
+@pytest.mark.parametrize("filter_", ["always", "error"])
+def test_a_node_that_was_never_closed_is_warned_of_and_freed(filter_):
+    """Also when warnings are errors: what frees it must not depend on that."""
+    script = (
+        "import asyncio, aioros1\n"
+        "async def main():\n"
+        "    global node, sub\n"
+        "    master = aioros1.Master(host='localhost', port=0)\n"
+        "    async with master:\n"
+        "        node = aioros1.Node('n', master_uri=master.uri, host='localhost', rosout=False)\n"
+        "        await node.start()\n"
+        "        sub = await node.subscribe('chatter', 'std_msgs/String')\n"
+        "asyncio.run(main())\n"
+        "print(node.state, sub.is_open)\n"
+    )
+    result = subprocess.run(
+        [sys.executable, "-W", f"{filter_}::ResourceWarning", "-c", script],
+        capture_output=True,
+        text=True,
+        timeout=30,
+        check=False,
+    )
+    assert "node /n was never closed" in result.stderr
+    assert result.stdout.split() == ["closed", "False"]
