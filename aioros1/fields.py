@@ -18,7 +18,7 @@ def message_from(cls: type[Message], message: Any, fields: Mapping[str, Any]) ->
     unknown fields, :class:`~aioros1.SerializationError` for a message of another type.
     """
     if message is None:
-        if any(isinstance(value, dict) for value in fields.values()):
+        if any(map(_holds_dicts, fields.values())):
             return from_dict(cls, fields)
         return cls(**fields)
     if fields:
@@ -27,3 +27,10 @@ def message_from(cls: type[Message], message: Any, fields: Mapping[str, Any]) ->
             f"and {', '.join(fields)}"
         )
     return convert(cls, message)
+
+
+def _holds_dicts(value: object) -> bool:
+    """Whether a field's value is given by fields itself, or a list of such."""
+    if isinstance(value, (list, tuple)):
+        return bool(value) and isinstance(value[0], Mapping)
+    return isinstance(value, Mapping)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from aioros1.errors import ClosedError, MasterError
 from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
@@ -87,16 +87,19 @@ class Graph:
 
         Ends when the node is closed. Raises :class:`~aioros1.MasterError`.
         """
-        before = await self.snapshot()
-        while True:
-            await asyncio.sleep(poll)
-            if not self._node.is_open:
-                return
-            now = await self.snapshot()
-            old, new = before._edges(), now._edges()
-            before = now
-            if old != new:
-                yield GraphChange(now, new - old, old - new)
+        node = self._node
+        try:
+            before = await self.snapshot()
+            while True:
+                await node._pause(poll)
+                now = await self.snapshot()
+                old, new = before._edges(), now._edges()
+                before = now
+                if old != new:
+                    yield GraphChange(now, new - old, old - new)
+        except (ClosedError, MasterError):
+            if node.is_open:
+                raise
 
     async def wait_for(
         self,
@@ -108,9 +111,9 @@ class Graph:
         """Wait until ``predicate(snapshot)`` is true, and return that snapshot.
 
         Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.MasterError`.
+        :class:`~aioros1.MasterError` and :class:`~aioros1.ClosedError`.
         """
         async with deadline(timeout, "the graph did not become as wanted"):
             while not predicate(snapshot := await self.snapshot()):
-                await asyncio.sleep(poll)
+                await self._node._pause(poll)
         return snapshot

@@ -163,7 +163,9 @@ class Node:
         self._heartbeat = Heartbeat(self)
         self._events: Broadcast[Event] = Broadcast()
         self._supervisor = Supervisor(
-            f"node {self.name}", self._begin, self._finish, self._free, self._report
+            f"node {self.name}",
+            *(self._begin, self._finish, self._free, self._drop),
+            self._report,
         )
         self._state = "new"
         self._close_timeout = timeouts.close
@@ -209,7 +211,7 @@ class Node:
         """Drop everything at once, without a word to the master or to peers."""
         self._close_timeout = 0
         self._supervisor.end("aborted")
-        self._free()
+        self._drop()
 
     async def wait_closed(self) -> str:
         """Wait until the node is closed, and return why.
@@ -302,7 +304,7 @@ class Node:
     @property
     def roles(self) -> tuple[Role, ...]:
         """All open roles, in the order they were opened."""
-        return tuple(self._roles.open)
+        return tuple(role for role in self._roles.open if role.is_open)
 
     @property
     def stats(self) -> NodeStats:
@@ -571,7 +573,7 @@ class Node:
         """
         async with deadline(timeout, f"no master at {self.master_uri}"):
             while not await self._heartbeat.greet():
-                await asyncio.sleep(0.1)
+                await self._pause(0.1)
 
     # time
 
@@ -619,6 +621,9 @@ class Node:
         self, function: Callable[..., Awaitable[Any]], *args: Any, name: str
     ) -> asyncio.Task[None]:
         return self._supervisor.spawn(function, *args, name=name)
+
+    async def _pause(self, seconds: float) -> None:
+        await self._supervisor.pause(seconds)
 
     def _emit(self, event: Event) -> None:
         self._events.publish(event)
@@ -698,14 +703,16 @@ class Node:
         self._heartbeat.stop()
         self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))
         await self._roles.close(self._close_timeout)
-        if self._rosout is not None:
-            self._rosout.detach()
+
+    async def _free(self) -> None:
+        """Let go of all that is shared with others, whatever has become of it."""
+        self._state = "closing"
         self._acceptor.close()
         await self._server.close()
         await self._xmlrpc.close()
 
-    def _free(self) -> None:
-        """Let go of everything, without waiting for anybody."""
+    def _drop(self) -> None:
+        """Let go of the rest, without waiting for anybody."""
         self._state = "closed"
         if self._rosout is not None:
             self._rosout.detach()

@@ -126,8 +126,16 @@ class NodeProxy:
         return await self.call("getMasterUri", read=str)
 
     async def shutdown(self, reason: str = "") -> None:
-        """Ask the node to end; it answers first."""
-        await self.call("shutdown", reason)
+        """Ask the node to end.
+
+        rospy obeys without answering, so that a connection that is lost instead of an
+        answer is as good as one.
+        """
+        try:
+            await self.call("shutdown", reason)
+        except PeerUnreachable as error:
+            if not isinstance(error.__cause__, ConnectionResetError):
+                raise
 
     async def get_pid(self) -> int:
         return await self.call("getPid", read=int)

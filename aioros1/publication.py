@@ -112,31 +112,29 @@ class Publication:
 
     def send(self, frame: Frame, publisher: Publisher[Any]) -> None:
         """Give ``frame`` to every connection, or to its queue, as ``publisher`` wants."""
+        alone = not isinstance(frame, bytes) or len(frame) >= JOIN
+        if alone:
+            # Before anything else: a connection may fill up with what is sent here, and
+            # then belongs to those for whom the frame is queued.
+            self._flush()
         for link in self._slow:
             _enqueue(link, frame, publisher)
-        if not isinstance(frame, bytes) or len(frame) >= JOIN:
-            self._flush()
-            self._write(frame, 1)
-            self._start_turn()
-            self.turn_is_full = True
-        elif self._in_turn:
+        if self._in_turn and isinstance(frame, bytes) and not alone:
             self._pending.append(frame)
             self._pending_bytes += len(frame)
             if self._pending_bytes >= JOIN:
                 self._flush()
                 self.turn_is_full = True
         else:
-            self._write(frame, 1)
+            for link in self._open:
+                link.write(frame, 1)
             self._start_turn()
+            self.turn_is_full |= alone
 
     def has_room(self, publisher: Publisher[Any]) -> bool:
         """Whether every queue would take one more message without dropping any."""
         size = publisher.options.queue_size
         return not self._slow or all(_waiting(link, publisher) < size for link in self._slow)
-
-    def _write(self, frame: Frame, messages: int) -> None:
-        for link in self._open:
-            link.write(frame, messages)
 
     def _start_turn(self) -> None:
         if not self._in_turn:
@@ -152,7 +150,9 @@ class Publication:
         if pending:
             self._pending = []
             self._pending_bytes = 0
-            self._write(b"".join(pending), len(pending))
+            block = b"".join(pending)
+            for link in self._open:
+                link.write(block, len(pending))
 
     # connections
 

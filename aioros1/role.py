@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import builtins
 from collections.abc import Coroutine, Generator
 from dataclasses import dataclass
@@ -62,6 +63,7 @@ class Role:
         self._node = node
         self._name = name
         self._is_open = True
+        self._closing: asyncio.Task[None] | None = None
         self.stats = RoleStats()
 
     @property
@@ -103,13 +105,19 @@ class Role:
         """Take the role back from the master and free what it holds.
 
         May be called any number of times. What could not be said to the master, because
-        it is gone, is logged and not raised.
+        it is gone, is logged and not raised. When it is cancelled, closing goes on.
         """
-        if not self._is_open:
-            return
-        self._is_open = False
-        self._node._roles.open.pop(self, None)
-        await self._close()
+        if self._is_open:
+            self._is_open = False
+            self._closing = self._node._spawn(self._finish, name=f"close {self.kind} {self.name}")
+        if self._closing is not None:
+            await asyncio.wait({self._closing})
+
+    async def _finish(self) -> None:
+        try:
+            await self._close()
+        finally:
+            self._node._roles.open.pop(self, None)
 
     async def _close(self) -> None:
         raise NotImplementedError

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import logging
 from collections import deque
@@ -68,7 +67,7 @@ class Rosout(logging.Handler):
                     "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
                 )
             except MasterError:
-                await asyncio.sleep(_RETRY)
+                await self._node._pause(_RETRY)
         while self._early:
             self.emit(self._early.popleft())
 
@@ -117,7 +116,7 @@ async def serve_logger_levels(node: Node) -> None:
             with contextlib.suppress(MasterError):
                 await node.advertise_service(name, srv, handler)
                 break
-            await asyncio.sleep(_RETRY)
+            await node._pause(_RETRY)
 
 
 def _level(number: int) -> int:

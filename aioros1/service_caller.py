@@ -195,7 +195,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         backoff = Backoff(first=0.02, longest=0.5)
         async with deadline(timeout, f"service {self.name} did not appear"):
             while not await self.is_available():
-                await asyncio.sleep(backoff.delay())
+                await self._node._pause(backoff.delay())
 
     # one call
 
@@ -284,7 +284,7 @@ class ServiceCaller(Role, Generic[Q, A]):
             stream.writer.write(client.data_to_send())
             try:
                 await stream.receive_header(client, timeout=node.timeouts.handshake)
-            except TimeoutError as error:
+            except (OSError, TimeoutError) as error:
                 raise ServiceUnavailable(f"service {self.name}: {error}") from error
             self._check_open()
         except BaseException:

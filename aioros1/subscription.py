@@ -85,6 +85,7 @@ class Subscription:
     def remove(self, subscriber: Subscriber[Any]) -> None:
         """One less; with the last one go the connections."""
         self.subscribers = tuple(each for each in self.subscribers if each is not subscriber)
+        self.changed.wake()
         if not self.subscribers:
             self.close()
 

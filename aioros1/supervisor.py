@@ -15,8 +15,9 @@ __all__ = ["Supervisor"]
 class Supervisor:
     """Runs ``begin``, then waits to be told to end, then runs ``finish``.
 
-    Whoever asks for the end, and may be cancelled while waiting for it, does not do it:
-    this task does. All other tasks of the node are in its task group.
+    ``free`` and ``abort`` always come last, also after a ``begin`` that failed or was
+    cancelled half-way. Whoever asks for the end, and may be cancelled while waiting for
+    it, does not do it: this task does. All other tasks of the node are in its task group.
     """
 
     def __init__(
@@ -24,12 +25,14 @@ class Supervisor:
         name: str,
         begin: Callable[[], Awaitable[None]],
         finish: Callable[[], Awaitable[None]],
+        free: Callable[[], Awaitable[None]],
         abort: Callable[[], None],
         report: Callable[[BaseException, str], None],
     ) -> None:
         self._name = name
         self._begin = begin
         self._finish = finish
+        self._free = free
         self._abort = abort
         self._report = report
         self._group: asyncio.TaskGroup | None = None
@@ -61,6 +64,15 @@ class Supervisor:
         """Wait until everything has ended."""
         if self._task is not None:
             await asyncio.wait({self._task})
+
+    async def pause(self, seconds: float) -> None:
+        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the end begins."""
+        try:
+            async with asyncio.timeout(seconds):
+                await self._end.wait()
+        except TimeoutError:
+            return
+        raise ClosedError(f"{self._name} is closed ({self.reason})")
 
     def spawn(
         self, function: Callable[..., Awaitable[Any]], *args: Any, name: str
@@ -95,6 +107,7 @@ class Supervisor:
                     await self._finish()
                 finally:
                     self._group = None
+                    await self._free()
                 raise _TheEndError
         except* _TheEndError:
             pass
@@ -106,10 +119,11 @@ class Supervisor:
             else:
                 begun.set_exception(error)
         finally:
-            if self.reason is None:
-                warnings.warn(f"{self._name} was never closed", ResourceWarning, stacklevel=1)
-                self.end("the event loop has ended")
+            forgotten = self.reason is None
+            self.end("the event loop has ended")
             self._abort()
+            if forgotten:  # last, because a warning may be an exception
+                warnings.warn(f"{self._name} was never closed", ResourceWarning, stacklevel=1)
 
 
 class _TheEndError(Exception):

@@ -13,7 +13,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from typing import Literal, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
-from aioros1.errors import ClosedError, HandshakeError
+from aioros1.errors import ClosedError
 from aioros1.net.hosts import bind_sockets, resolve
 from aioros1.options import Limits
 
@@ -57,12 +57,15 @@ class Stream:
     async def receive_header(self, side: Side, *, timeout: float) -> None:
         """Read until ``side`` has its header, and not a byte beyond it.
 
-        Raises :class:`~aioros1.HandshakeError` and :class:`TimeoutError`.
+        Raises :class:`~aioros1.HandshakeError`, :class:`TimeoutError`, and
+        :class:`ConnectionError` when the connection ends before.
         """
         try:
             async with asyncio.timeout(timeout):
                 while True:
                     data = await self.reader.read(side.missing)
+                    if not data:
+                        raise ConnectionResetError("the other side closed it")
                     if side.receive_data(data):
                         return
         except TimeoutError:
@@ -70,7 +73,9 @@ class Stream:
                 f"{self.peer} sent no whole connection header in {timeout} s"
             ) from None
         except ConnectionError as error:
-            raise HandshakeError(self.peer, f"connection lost in the handshake: {error}") from error
+            raise ConnectionResetError(
+                f"{self.peer}: connection lost in the handshake: {error}"
+            ) from error
 
     async def read_exactly(self, count: int, *, patience: float | None) -> bytes:
         """``count`` bytes; ``patience`` is how many seconds may pass without any.

@@ -214,7 +214,9 @@ class OutgoingLink(asyncio.Protocol):
             self.is_open = True
             self._owner.link_opened(self)
             if self._closing and self._transport is not None:
-                self._transport.close()
+                # Not at once: asyncio's transport, which is calling us, would then report
+                # the end of the connection twice.
+                asyncio.get_running_loop().call_soon(self._transport.close)
         self._owner.room_made()
 
     def connection_lost(self, exc: Exception | None) -> None:

@@ -44,7 +44,8 @@ class XmlRpcClient:
         ``timeout`` is for the whole call, in seconds; ``Timeouts.xmlrpc`` by default. Raises
 
         - :class:`TimeoutError` when it is over,
-        - :class:`ConnectionError` when nobody can be reached at ``uri``,
+        - :class:`ConnectionError` when nobody can be reached at ``uri``, and
+          :class:`ConnectionResetError` when the connection is lost before the answer,
         - :class:`.XmlRpcFault` when the server answers with a fault,
         - :class:`.XmlRpcError` when what it answers is not XML-RPC, or too much,
         - :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for parameters
@@ -79,14 +80,19 @@ class XmlRpcClient:
         attempt = _Attempt()
         try:
             return await self._post(self._session, url, body, what, attempt)
-        except ConnectionError:
+        except ConnectionError as error:
+            lost = error
             # Perhaps the server closed the kept connection while the request was on its
             # way. Then, and only then, it is sent once more, on a connection that is
             # certainly new: the others that are kept may be as stale.
             if not attempt.reused or self._closed:
                 raise
         async with _new_session() as fresh:
-            return await self._post(fresh, url, body, what, attempt)
+            try:
+                return await self._post(fresh, url, body, what, attempt)
+            except ConnectionError as error:
+                # It may have been received the first time, whatever happened now.
+                raise ConnectionResetError(str(error)) from lost
 
     async def _post(
         self, session: aiohttp.ClientSession, url: URL, body: bytes, what: str, attempt: _Attempt
@@ -103,7 +109,7 @@ class XmlRpcClient:
         except aiohttp.ClientResponseError as error:
             raise XmlRpcError(f"{what}: not an HTTP answer: {error.message}") from error
         except (aiohttp.ClientError, OSError) as error:
-            raise ConnectionError(f"{what}: connection lost: {_cause(error)}") from error
+            raise ConnectionResetError(f"{what}: connection lost: {_cause(error)}") from error
 
     async def _read(self, response: aiohttp.ClientResponse, what: str) -> bytes:
         if response.status != 200:

@@ -115,9 +115,10 @@ async def test_one_serialisation_for_all_subscribers(node, monkeypatch):
 
     monkeypatch.setattr(String, "_frame", counting)
     async with node.advertise("chatter", String) as pub, contextlib.AsyncExitStack() as stack:
-        wires = []
-        for count in range(1, 6):
-            wires.append(await stack.enter_async_context(listening(node, pub, count=count)))
+        wires = [
+            await stack.enter_async_context(listening(node, pub, count=count))
+            for count in range(1, 6)
+        ]
         for number in range(10):
             pub.publish(data=numbered(number))
         for wire in wires:

@@ -340,6 +340,17 @@ async def test_a_provider_that_never_sends_a_header_is_given_up(fake, any_caller
     assert await wire.is_closed()
 
 
+@pytest.mark.parametrize("said", [b"", header({"md5sum": "*"})[:-1]], ids=["nothing", "half"])
+async def test_a_provider_that_closes_instead_of_a_header_is_unavailable(fake, any_caller, said):
+    call = any_caller.send_request(data=True)
+    wire = await fake.greeted()
+    await wire.send(said)
+    await wire.close()
+    with pytest.raises(aioros1.ServiceUnavailable):
+        await call
+    assert await answered(fake, any_caller)
+
+
 async def test_a_provider_that_takes_nothing_is_given_up(node, make_provider, bystander):
     fake = await make_provider("/level")
     large = "x" * 20_000_000

@@ -335,14 +335,17 @@ async def test_a_subscriber_that_leaves_in_the_middle_disturbs_nobody(node, pub,
 
 async def test_connections_beyond_the_limit_are_closed_and_counted(make_node):
     node = await make_node("talker", limits=aioros1.Limits(connections=2))
-    async with node.advertise("chatter", String) as pub:
-        async with dialled(node, subscriber_header()) as one, dialled(node, b"\x01") as two:
-            assert await hears(one, pub, "hi")
-            async with dialled(node, subscriber_header()) as three:
-                assert await three.is_closed()
-            assert node.stats.connections_refused == 1
-            two.abort()  # and its place becomes free again
-            assert await served_at_last(node)
+    async with (
+        node.advertise("chatter", String) as pub,
+        dialled(node, subscriber_header()) as one,
+        dialled(node, b"\x01") as two,
+    ):
+        assert await hears(one, pub, "hi")
+        async with dialled(node, subscriber_header()) as three:
+            assert await three.is_closed()
+        assert node.stats.connections_refused == 1
+        two.abort()  # and its place becomes free again
+        assert await served_at_last(node)
 
 
 async def served_at_last(node: aioros1.Node) -> bool:

@@ -11,7 +11,9 @@ import tracemalloc
 import pytest
 
 import aioros1
+from aioros1 import subscription
 from aioros1.msg.std_msgs import String
+from aioros1.net.backoff import Backoff
 
 from .peers import STRING_MD5, STRING_REPLY, WRONG_MD5, frame, header, string, until
 
@@ -269,7 +271,7 @@ async def test_U10_no_reconnection_when_the_master_lists_the_publisher_no_more(f
     await fake.unregister()
     assert await wire.is_closed()
     await until(lambda: sub.publisher_count == 0)
-    assert not node._roles.subscriptions["/chatter"]._followers
+    await node.has_param("/a_round_trip")
     assert fake.dials == 1
 
 
@@ -319,15 +321,14 @@ async def test_U12_a_fault_is_survived(fake, node, bystander, caplog):
     caplog.clear()  # the fake one's own complaint
 
 
-async def test_U12_an_announcement_ends_the_waiting_at_once(fake, node):
+async def test_U12_an_announcement_ends_the_waiting_at_once(fake, node, monkeypatch):
+    monkeypatch.setattr(subscription, "Backoff", lambda: Backoff(60.0, 60.0))
     fake.ready = [0, "not yet", []]
     async with node.subscribe("chatter", String) as sub:
-        await until(lambda: fake.requests >= 4)  # the next delay is 0.4 s at least
-        asked = asyncio.get_running_loop().time()
+        await until(lambda: fake.requests)
         fake.ready = None
         await fake.register()
         assert await recovers(fake, sub)
-        assert asyncio.get_running_loop().time() - asked < 0.35
 
 
 async def test_U13_a_publisher_that_hangs_in_request_topic_holds_up_nobody(

@@ -1,0 +1,421 @@
+"""Connections on asyncio streams, and how a protocol takes them over."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import socket
+import struct
+import tracemalloc
+from collections.abc import AsyncIterator, Iterator
+
+import pytest
+
+from aioros1.errors import ClosedError, HandshakeError
+from aioros1.net import tcpros
+from aioros1.net.tcpros import Listener, Stream, connect, connection_info, take_over
+from aioros1.options import Limits
+from aioros1.wire.handshake import Server
+from aioros1.wire.header import encode_header
+
+HEADER = encode_header({"callerid": "/x", "md5sum": "*", "topic": "/chatter"})
+
+
+def server_side() -> Server:
+    return Server("peer", max_bytes=1000, max_fields=10)
+
+
+@pytest.fixture
+async def pair() -> AsyncIterator[tuple[Stream, socket.socket]]:
+    """A stream, and the bare socket at its other end."""
+    ours, theirs = socket.socketpair(socket.AF_UNIX)
+    theirs.setblocking(False)
+    stream = Stream(*await asyncio.open_connection(sock=ours))
+    yield stream, theirs
+    theirs.close()
+    await drop(stream)
+
+
+async def drop(*streams: Stream) -> None:
+    for stream in streams:
+        stream.abort()
+    for _ in range(5):  # event loops close things in a later turn
+        await asyncio.sleep(0)
+
+
+async def say(sock: socket.socket, data: bytes) -> None:
+    await asyncio.get_running_loop().sock_sendall(sock, data)
+
+
+# the handshake
+
+
+async def test_a_header_is_read_and_not_a_byte_beyond_it(pair):
+    stream, peer = pair
+    await say(peer, HEADER + b"first messages")
+    side = server_side()
+    await stream.receive_header(side, timeout=5)
+    assert side.topic == "/chatter"
+    assert await stream.reader.readexactly(14) == b"first messages"
+
+
+async def test_a_header_byte_by_byte(pair):
+    stream, peer = pair
+    side = server_side()
+    receiving = asyncio.create_task(stream.receive_header(side, timeout=5))
+    for byte in HEADER:
+        await say(peer, bytes([byte]))
+        await asyncio.sleep(0)
+    await receiving
+    assert side.topic == "/chatter"
+
+
+async def test_a_header_that_does_not_come_in_time(pair):
+    stream, peer = pair
+    await say(peer, HEADER[:-1])
+    with pytest.raises(TimeoutError, match=r"sent no whole connection header in 0.05 s"):
+        await stream.receive_header(server_side(), timeout=0.05)
+
+
+async def test_the_end_instead_of_a_header(pair):
+    stream, peer = pair
+    await say(peer, HEADER[:-1])
+    peer.close()
+    with pytest.raises(ConnectionError, match="connection lost in the handshake"):
+        await stream.receive_header(server_side(), timeout=5)
+
+
+async def test_a_length_beyond_the_limit_is_not_waited_for(pair):
+    stream, peer = pair
+    await say(peer, struct.pack("<I", 1001))
+    with pytest.raises(HandshakeError, match="1001 bytes"):
+        await stream.receive_header(server_side(), timeout=5)
+
+
+async def test_a_cancelled_handshake_is_a_cancellation(pair):
+    stream, _ = pair
+    receiving = asyncio.create_task(stream.receive_header(server_side(), timeout=5))
+    await asyncio.sleep(0.01)
+    receiving.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await receiving
+
+
+# reading and writing
+
+
+@pytest.mark.parametrize("count", [0, 1, 65_535, 65_536, 65_537, 1_000_000])
+async def test_as_many_bytes_as_asked_for_are_read(pair, count):
+    stream, peer = pair
+    data = bytes(range(256)) * (count // 256 + 1)
+    saying = asyncio.create_task(say(peer, data[:count] + b"rest"))
+    assert await stream.read_exactly(count, patience=5) == data[:count]
+    assert await stream.read_exactly(4, patience=None) == b"rest"
+    await saying
+
+
+@pytest.mark.parametrize("count", [100, 200_000])
+async def test_an_end_in_the_middle_of_what_is_read(pair, count):
+    stream, peer = pair
+    await say(peer, b"only this")
+    peer.close()
+    with pytest.raises(asyncio.IncompleteReadError) as caught:
+        await stream.read_exactly(count, patience=5)
+    assert caught.value.partial == b"only this"
+    assert caught.value.expected == count
+
+
+@pytest.mark.parametrize("count", [100, 200_000])
+async def test_what_does_not_come_is_not_waited_for(pair, count):
+    stream, peer = pair
+    await say(peer, b"only this")
+    with pytest.raises(TimeoutError):
+        await stream.read_exactly(count, patience=0.05)
+
+
+async def test_patience_with_something_large_is_for_the_next_piece_of_it(pair):
+    stream, peer = pair
+
+    async def trickle() -> None:
+        for _ in range(10):
+            await say(peer, bytes(20_000))
+            await asyncio.sleep(0.03)
+
+    trickling = asyncio.create_task(trickle())
+    assert len(await stream.read_exactly(200_000, patience=0.2)) == 200_000
+    await trickling
+
+
+async def test_memory_is_not_taken_on_the_word_of_a_length(pair):
+    stream, peer = pair
+    await say(peer, bytes(50_000))
+    tracemalloc.start()
+    try:
+        with pytest.raises(TimeoutError):
+            await stream.read_exactly(900_000_000, patience=0.05)
+        assert tracemalloc.get_traced_memory()[1] < 5_000_000
+    finally:
+        tracemalloc.stop()
+
+
+async def test_writing_to_a_peer_that_takes_nothing_is_given_up(pair):
+    stream, _ = pair
+    with pytest.raises(TimeoutError, match=r"took nothing for 0.05 s"):
+        await stream.write(bytes(5_000_000), stall=0.05)
+
+
+async def test_writing_to_a_peer_that_is_slow_is_not_given_up(pair):
+    stream, peer = pair
+    writing = asyncio.create_task(stream.write(bytes(3_000_000), stall=0.2))
+    taken = 0
+    loop = asyncio.get_running_loop()
+    while not writing.done():
+        taken += len(await loop.sock_recv(peer, 300_000))
+        await asyncio.sleep(0.03)
+    await writing
+    assert taken > 2_000_000
+
+
+async def test_what_was_written_is_sent_before_the_stream_closes(pair):
+    stream, peer = pair
+    await stream.write(b"goodbye", stall=1)
+    await stream.close()
+    assert await asyncio.get_running_loop().sock_recv(peer, 100) == b"goodbye"
+    assert await asyncio.get_running_loop().sock_recv(peer, 100) == b""
+
+
+async def test_whoever_reads_sees_the_end_when_reading_is_stopped(pair):
+    stream, peer = pair
+    reading = asyncio.create_task(stream.read_exactly(4, patience=None))
+    await asyncio.sleep(0.01)
+    stream.stop_reading()
+    with pytest.raises(asyncio.IncompleteReadError):
+        await reading
+    await stream.write(b"but it can still be written to", stall=1)
+    assert (await asyncio.get_running_loop().sock_recv(peer, 100)).startswith(b"but")
+
+
+# connecting
+
+
+@pytest.fixture
+def listening() -> Iterator[socket.socket]:
+    with socket.socket() as sock:
+        sock.bind(("127.0.0.1", 0))
+        sock.listen()
+        sock.setblocking(False)
+        yield sock
+
+
+async def test_connecting_sets_what_roscpp_sets(listening):
+    stream = await connect("127.0.0.1", listening.getsockname()[1], timeout=5)
+    sock = stream.writer.get_extra_info("socket")
+    assert sock.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+    assert sock.getsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE)
+    info = connection_info(stream, "/chatter", "i", "/x", {})
+    assert info.local[0] == "127.0.0.1"
+    assert info.remote == ("127.0.0.1", listening.getsockname()[1])
+    assert info.fileno == sock.fileno()
+    await drop(stream)
+
+
+async def test_a_refused_connection_names_host_and_port(listening):
+    port = listening.getsockname()[1]
+    listening.close()
+    with pytest.raises(ConnectionError, match=rf"127.0.0.1:{port}"):
+        await connect("127.0.0.1", port, timeout=5)
+
+
+async def test_a_connection_that_takes_too_long_names_host_and_port():
+    with socket.socket() as full, contextlib.ExitStack() as stack:
+        full.bind(("127.0.0.1", 0))
+        full.listen(0)
+        port = full.getsockname()[1]
+        for _ in range(4):  # from now on the system drops requests to connect
+            waiting = stack.enter_context(socket.socket())
+            waiting.setblocking(False)
+            waiting.connect_ex(("127.0.0.1", port))
+        with pytest.raises(TimeoutError, match=rf"127.0.0.1:{port} within 0.1 s"):
+            await connect("127.0.0.1", port, timeout=0.1)
+
+
+async def test_every_address_of_a_host_is_tried(listening, monkeypatch):
+    async def two(host, port=0):
+        return [(socket.AF_INET, "127.0.0.3"), (socket.AF_INET, "127.0.0.1")]
+
+    monkeypatch.setattr(tcpros, "resolve", two)
+    stream = await connect("robot", listening.getsockname()[1], timeout=5)
+    assert stream.peer.startswith("127.0.0.1:")
+    await drop(stream)
+
+
+@pytest.mark.parametrize("host", ["a..b", "a" * 70, "no such host", ""])
+async def test_a_host_that_is_no_name_is_a_connection_error(host):
+    with pytest.raises(ConnectionError, match="cannot connect to"):
+        await connect(host, 1, timeout=5)
+
+
+# taking over
+
+
+class Taker(asyncio.Protocol):
+    """Keeps what comes."""
+
+    def __init__(self) -> None:
+        self.data = bytearray()
+        self.lost = asyncio.get_running_loop().create_future()
+        self.transport: asyncio.BaseTransport | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self.transport = transport
+
+    def data_received(self, data: bytes) -> None:
+        self.data += data
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self.lost.set_result(exc)
+
+
+@pytest.mark.parametrize("behind", [0, 10, 70_000, 150_000])
+async def test_no_byte_is_lost_when_a_protocol_takes_over(pair, behind):
+    """Also not when the reader held so much that it had stopped reading."""
+    stream, peer = pair
+    data = bytes(range(256)) * 2000
+    saying = asyncio.create_task(say(peer, HEADER + data[:behind]))
+    await stream.receive_header(server_side(), timeout=5)
+    if behind <= 100_000:  # else the system cannot hold it
+        await saying
+    await asyncio.sleep(0.01)
+    taker = Taker()
+    rest = await take_over(stream, taker)
+    assert taker.transport is stream.transport
+    await saying
+    await say(peer, data[behind:])
+    peer.shutdown(socket.SHUT_WR)
+    await asyncio.wait_for(taker.lost, 5)
+    assert rest + bytes(taker.data) == data
+
+
+async def test_an_end_that_came_before_is_seen_after_taking_over(pair):
+    stream, peer = pair
+    await say(peer, HEADER + b"rest")
+    peer.shutdown(socket.SHUT_WR)
+    await stream.receive_header(server_side(), timeout=5)
+    await asyncio.sleep(0.01)
+    taker = Taker()
+    assert await take_over(stream, taker) == b"rest"
+    await asyncio.wait_for(taker.lost, 5)
+
+
+async def test_a_connection_that_is_lost_already_cannot_be_taken_over(pair):
+    stream, peer = pair
+    await say(peer, HEADER)
+    await stream.receive_header(server_side(), timeout=5)
+    stream.abort()
+    with pytest.raises(ConnectionError, match="lost in the handshake"):
+        await take_over(stream, Taker())
+
+
+# the listener
+
+
+class Served:
+    """What a listener was given to serve, each in a task."""
+
+    def __init__(self) -> None:
+        self.tasks: set[asyncio.Task[None]] = set()
+        self.count = 0
+        self.is_closed = False
+
+    def spawn(self, function, *args, name: str) -> None:
+        if self.is_closed:
+            raise ClosedError("too late")
+        self.tasks.add(asyncio.create_task(function(*args), name=name))
+
+    async def serve(self, stream: Stream) -> None:
+        self.count += 1
+        try:
+            await stream.reader.read()
+        finally:
+            await drop(stream)
+
+
+@contextlib.asynccontextmanager
+async def serving(**limits: int) -> AsyncIterator[tuple[Listener, Served]]:
+    served = Served()
+    listener = Listener(served.serve, served.spawn, limits=Limits(**limits))
+    await listener.start("127.0.0.1", 0)
+    try:
+        yield listener, served
+    finally:
+        listener.close()
+        for task in served.tasks:
+            task.cancel()
+        if served.tasks:
+            await asyncio.wait(served.tasks)
+
+
+async def is_closed_at_once(stream: Stream) -> bool:
+    try:
+        async with asyncio.timeout(5):
+            return await stream.reader.read() == b""
+    except ConnectionError:
+        return True
+
+
+async def eventually(condition) -> None:
+    async with asyncio.timeout(5):
+        while not condition():
+            await asyncio.sleep(0.002)
+
+
+async def test_every_connection_is_served_in_a_task_named_after_its_peer():
+    async with serving() as (listener, served):
+        streams = [await connect("127.0.0.1", listener.port, timeout=5) for _ in range(3)]
+        await eventually(lambda: served.count == 3)
+        local = streams[0].writer.get_extra_info("sockname")
+        assert f"tcpros 127.0.0.1:{local[1]}" in {task.get_name() for task in served.tasks}
+        await drop(*streams)
+
+
+async def test_connections_beyond_the_limit_are_closed_and_counted():
+    async with serving(connections=2) as (listener, served):
+        first, second = [await connect("127.0.0.1", listener.port, timeout=5) for _ in range(2)]
+        await eventually(lambda: served.count == 2)
+        third = await connect("127.0.0.1", listener.port, timeout=5)
+        assert await is_closed_at_once(third)
+        assert (listener.refused, served.count) == (1, 2)
+        first.abort()
+        await eventually(lambda: any(task.done() for task in served.tasks))
+        fourth = await connect("127.0.0.1", listener.port, timeout=5)
+        await eventually(lambda: served.count == 3)
+        await drop(first, second, third, fourth)
+
+
+async def test_a_connection_that_comes_too_late_is_closed():
+    async with serving() as (listener, served):
+        served.is_closed = True
+        stream = await connect("127.0.0.1", listener.port, timeout=5)
+        assert await is_closed_at_once(stream)
+        await drop(stream)
+
+
+async def test_closing_the_listener_leaves_connections_open():
+    async with serving() as (listener, served):
+        stream = await connect("127.0.0.1", listener.port, timeout=5)
+        await eventually(lambda: served.count == 1)
+        port = listener.port
+        listener.close()
+        listener.close()
+        with pytest.raises(ConnectionError):
+            await connect("127.0.0.1", port, timeout=5)
+        assert not any(task.done() for task in served.tasks)
+        await drop(stream)
+
+
+async def test_a_port_that_is_taken_is_named():
+    async with serving() as (listener, _):
+        served = Served()
+        other = Listener(served.serve, served.spawn, limits=Limits())
+        with pytest.raises(OSError, match=f"127.0.0.1:{listener.port}"):
+            await other.start("127.0.0.1", listener.port)
