@@ -13,7 +13,15 @@ import aioros1
 from aioros1.msg.std_msgs import String
 from aioros1.srv.std_srvs import SetBool
 
-from .peers import FakePeer, caller_header, dialled, flip_request, subscriber_header, until
+from .peers import (
+    FakePeer,
+    caller_header,
+    dialled,
+    flip_request,
+    listening_ports,
+    subscriber_header,
+    until,
+)
 
 
 async def collect(iterator) -> list:
@@ -29,20 +37,14 @@ async def started(*awaitables) -> list[asyncio.Task]:
     return tasks
 
 
-async def can_connect(address: tuple[str, int]) -> bool:
-    try:
-        _, writer = await asyncio.open_connection(*address)
-    except OSError:
-        return False
-    writer.close()
-    with contextlib.suppress(OSError):
-        await writer.wait_closed()
+def ports_of(node: aioros1.Node) -> set[int]:
+    """The ports of its slave API and of its topics and services."""
+    return {node.tcpros_address[1], int(node.uri.rstrip("/").rpartition(":")[2])}
+
+
+async def are_free(ports: set[int]) -> bool:
+    await until(lambda: not ports & listening_ports(), "nobody listens any more")
     return True
-
-
-def xmlrpc_address(uri: str) -> tuple[str, int]:
-    host, port = uri.removeprefix("http://").rstrip("/").split(":")
-    return host, int(port)
 
 
 # trap 6: every loop ends
@@ -274,7 +276,7 @@ async def test_closing_frees_everything_when_the_master_is_gone(make_node, maste
     pub = await node.advertise("chatter", String)
     await node.subscribe("other", String)
     await node.advertise_service("flip", SetBool)
-    addresses = node.tcpros_address, xmlrpc_address(node.uri)
+    ports = ports_of(node)
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()
         await pub.wait_for_subscribers(timeout=5)
@@ -282,7 +284,7 @@ async def test_closing_frees_everything_when_the_master_is_gone(make_node, maste
         async with asyncio.timeout(3):
             await node.close()
         assert await wire.is_closed()
-    assert not [address for address in addresses if await can_connect(address)]
+    assert await are_free(ports)
 
 
 @pytest.fixture
@@ -298,7 +300,7 @@ async def test_closing_takes_no_longer_than_its_timeout_when_the_master_hangs(ma
     node = await make_node()
     pub = await node.advertise("chatter", String)
     await node.advertise_service("flip", SetBool)
-    addresses = node.tcpros_address, xmlrpc_address(node.uri)
+    ports = ports_of(node)
 
     # From now on the master takes requests and answers none.
     async def hang(*params):
@@ -310,20 +312,20 @@ async def test_closing_takes_no_longer_than_its_timeout_when_the_master_hangs(ma
     await node.close(timeout=0.2)
     assert asyncio.get_running_loop().time() - begin < 2
     assert not pub.is_open
-    assert not [address for address in addresses if await can_connect(address)]
+    assert await are_free(ports)
 
 
 async def test_a_start_that_is_cancelled_frees_everything(hung_master):
     node = aioros1.Node("node", master_uri=hung_master, host="localhost")
     starting = asyncio.create_task(node.start())
     await until(lambda: node._server.port and node._acceptor.port)
-    addresses = node.tcpros_address, xmlrpc_address(node.uri)
+    ports = ports_of(node)
     await asyncio.sleep(0.02)
     starting.cancel()
     with pytest.raises(asyncio.CancelledError):
         await starting
     try:
-        assert not [address for address in addresses if await can_connect(address)]
+        assert await are_free(ports)
     finally:  # what was left open would hang the closing of the event loop
         await node._server.close()
         await node._xmlrpc.close()
@@ -332,11 +334,11 @@ async def test_a_start_that_is_cancelled_frees_everything(hung_master):
 
 async def test_a_start_that_fails_frees_everything(make_node, master):
     first = await make_node("first")
-    _, taken = xmlrpc_address(first.uri)
+    taken = int(first.uri.rstrip("/").rpartition(":")[2])
     node = aioros1.Node("node", master_uri=master.uri, host="localhost", xmlrpc_port=taken)
     with pytest.raises(OSError, match=str(taken)):
         await node.start()
-    assert not await can_connect(("localhost", node._acceptor.port))
+    assert await are_free({node._acceptor.port})
     assert not node.is_open
     await node.close()
 
@@ -357,7 +359,7 @@ async def test_a_cancelled_close_goes_on_by_itself(make_node):
         async with asyncio.timeout(5):
             assert await node.wait_closed() == "closed"
     assert node.state == "closed"
-    assert not await can_connect(node.tcpros_address)
+    assert await are_free(ports_of(node))
     assert other.is_open
 
 

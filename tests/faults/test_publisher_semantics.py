@@ -280,7 +280,7 @@ async def test_a_stalled_subscriber_is_cut_off_and_the_others_never_notice(make_
 
 
 async def test_a_subscriber_that_takes_a_little_now_and_then_is_not_cut_off(make_node):
-    node = await make_node("talker", timeouts=aioros1.Timeouts(stall=0.3))
+    node = await make_node("talker", timeouts=aioros1.Timeouts(stall=0.2))
     async with (
         node.advertise("chatter", String, queue_size=1000) as pub,
         listening(node, pub) as wire,
@@ -289,14 +289,12 @@ async def test_a_subscriber_that_takes_a_little_now_and_then_is_not_cut_off(make
         await fill(pub)
         begin = asyncio.get_running_loop().time()
         taken = 0
-        while asyncio.get_running_loop().time() - begin < 1:
+        while asyncio.get_running_loop().time() - begin < 0.5:
             wire.resume()
             taken += len(await numbers(wire, 7))
             wire.pause()
             await asyncio.sleep(0.05)
             assert pub.subscriber_count == 1
-            if taken > 90:
-                break
         wire.resume()
         assert (await numbers(wire, 100 - taken))[-1] == 99
 

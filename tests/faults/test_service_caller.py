@@ -19,6 +19,7 @@ from .peers import (
     flip_request,
     frame,
     header,
+    refusing,
 )
 
 
@@ -26,7 +27,7 @@ from .peers import (
 async def node(make_node):
     """The caller's node, which is not patient."""
     return await make_node(
-        "client", timeouts=aioros1.Timeouts(handshake=0.2, connect=0.3, stall=0.2)
+        "client", timeouts=aioros1.Timeouts(handshake=0.15, connect=0.3, stall=0.15)
     )
 
 
@@ -133,11 +134,14 @@ async def test_V12_a_failed_call_leaves_the_persistent_connection_in_use(fake, c
 
 
 async def test_V13_a_provider_that_was_killed_is_an_error_at_once(fake, any_caller, bystander):
-    await fake.close()
-    async with asyncio.timeout(2):
-        with pytest.raises(aioros1.ServiceUnavailable, match="cannot connect"):
-            await any_caller.call(data=True)
+    with refusing() as port:
+        await fake.register(f"rosrpc://127.0.0.1:{port}")
+        async with asyncio.timeout(2):
+            with pytest.raises(aioros1.ServiceUnavailable, match="cannot connect"):
+                await any_caller.call(data=True)
     assert await bystander.is_served()
+    await fake.register()
+    assert await answered(fake, any_caller)
 
 
 async def test_an_unknown_service_is_not_found(node):
@@ -169,9 +173,16 @@ async def test_an_address_of_no_use_is_an_error_of_the_call(node, make_provider,
 
 
 @pytest.mark.parametrize(
-    "said", [b"", b"\x01", flip_answer(True)[:3], flip_answer(True)[:-1], b"\x00\x05"]
+    ("said", "how"),
+    [
+        (b"", "close"),
+        (b"", "abort"),
+        (b"\x01", "close"),
+        (flip_answer(True)[:3], "abort"),
+        (flip_answer(True)[:-1], "close"),
+        (b"\x00\x05", "close"),
+    ],
 )
-@pytest.mark.parametrize("how", ["close", "abort"])
 async def test_a_provider_that_is_lost_before_its_answer_is_an_error_at_once(
     fake, any_caller, bystander, said, how
 ):

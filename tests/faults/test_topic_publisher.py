@@ -30,7 +30,7 @@ from .peers import (
 @pytest.fixture
 async def node(make_node):
     """The publisher's node, which is not patient."""
-    return await make_node("talker", timeouts=aioros1.Timeouts(handshake=0.2, close=0.3))
+    return await make_node("talker", timeouts=aioros1.Timeouts(handshake=0.15, close=0.3))
 
 
 @pytest.fixture
@@ -191,7 +191,7 @@ async def test_T17_half_open_connection_blocks_nobody(make_node, bystander_of, s
 @half_open
 async def test_T17_half_open_connection_is_closed_after_the_timeout(node, pub, bystander, said):
     async with dialled(node, said) as wire:
-        assert "no whole connection header in 0.2 s" in (await wire.read_header())["error"]
+        assert "no whole connection header in 0.15 s" in (await wire.read_header())["error"]
         assert await wire.is_closed()
     assert await bystander.is_served()
 

@@ -85,7 +85,7 @@ async def make_node() -> AsyncIterator[Callable[[str], Awaitable[RecordingNode]]
 
 @pytest.fixture
 async def master() -> AsyncIterator[Master]:
-    async with Master("127.0.0.1", port=0, timeouts=Timeouts(xmlrpc=0.3)) as made:
+    async with Master("127.0.0.1", port=0, rosout=False, timeouts=Timeouts(xmlrpc=0.3)) as made:
         yield made
 
 

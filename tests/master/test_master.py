@@ -250,7 +250,9 @@ async def test_H12_uris_are_kept_as_given(ask: Any) -> None:
 
 
 async def test_what_a_new_master_has() -> None:
-    async with Master("localhost", port=0, params={"a": {"b": (1, 2)}, "/x/y": True}) as master:
+    async with Master(
+        "localhost", port=0, rosout=False, params={"a": {"b": (1, 2)}, "/x/y": True}
+    ) as master:
         assert re.fullmatch(r"http://localhost:\d+/", master.uri)
         assert master.uri == f"http://localhost:{master.port}/"
         assert master.is_open
@@ -298,14 +300,14 @@ async def test_what_is_told_to_others(
         monkeypatch.delenv(variable, raising=False)
     for variable, value in environ.items():
         monkeypatch.setenv(variable, value)
-    async with Master(host, port=0) as master:
+    async with Master(host, port=0, rosout=False) as master:
         assert master.uri == f"http://{expected}:{master.port}/"
 
 
 async def test_a_wildcard_is_never_told_to_others(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("aioros1.master.server.advertised_host", lambda: "192.0.2.7")
     for host in (None, "0.0.0.0"):
-        async with Master(host, port=0) as master:
+        async with Master(host, port=0, rosout=False) as master:
             assert master.uri == f"http://192.0.2.7:{master.port}/"
             client = XmlRpcClient()
             assert (await client.call(f"http://127.0.0.1:{master.port}/", "getUri", "/c"))[
@@ -327,7 +329,7 @@ async def test_shutdown_is_answered_and_then_obeyed(master: Master, ask: Any) ->
 
 async def test_closing_twice_and_at_once() -> None:
     before = asyncio.all_tasks()
-    master = Master("127.0.0.1", port=0)
+    master = Master("127.0.0.1", port=0, rosout=False)
     await master.start()
     await asyncio.gather(*(master.close() for _ in range(5)))
     await master.close()
@@ -338,7 +340,7 @@ async def test_closing_twice_and_at_once() -> None:
 
 
 async def test_a_closer_that_is_cancelled_closes_all_the_same() -> None:
-    master = Master("127.0.0.1", port=0)
+    master = Master("127.0.0.1", port=0, rosout=False)
     await master.start()
     closing = asyncio.create_task(master.close())
     await asyncio.sleep(0)
@@ -349,7 +351,7 @@ async def test_a_closer_that_is_cancelled_closes_all_the_same() -> None:
 
 
 async def test_a_port_that_is_taken(master: Master) -> None:
-    other = Master("127.0.0.1", port=master.port)
+    other = Master("127.0.0.1", port=master.port, rosout=False)
     with pytest.raises(OSError, match=f"cannot listen on 127.0.0.1:{master.port}"):
         await other.start()
     assert other.uri == ""
@@ -357,7 +359,7 @@ async def test_a_port_that_is_taken(master: Master) -> None:
 
 
 async def test_a_master_that_was_never_closed_says_so() -> None:
-    master = Master("127.0.0.1", port=0)
+    master = Master("127.0.0.1", port=0, rosout=False)
     await master.start()
     with pytest.warns(ResourceWarning, match="unclosed master"):
         master.__del__()
@@ -376,7 +378,10 @@ async def test_large_values(ask: Any) -> None:
 
 async def test_several_masters_know_nothing_of_each_other() -> None:
     client = XmlRpcClient()
-    async with Master("127.0.0.1", port=0) as one, Master("127.0.0.1", port=0) as two:
+    async with (
+        Master("127.0.0.1", port=0, rosout=False) as one,
+        Master("127.0.0.1", port=0, rosout=False) as two,
+    ):
         await client.call(one.uri, "setParam", "/c", "/k", 1)
         assert (await client.call(two.uri, "hasParam", "/c", "/k"))[2] is False
     await client.close()

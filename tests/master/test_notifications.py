@@ -255,7 +255,7 @@ async def test_notifications_are_dropped_when_the_master_ends() -> None:
     node = XmlRpcServer({"publisherUpdate": lambda *params: asyncio.sleep(3600)})
     await node.start("127.0.0.1")
     client = XmlRpcClient()
-    async with Master("127.0.0.1", port=0) as master:
+    async with Master("127.0.0.1", port=0, rosout=False) as master:
         uri = f"http://127.0.0.1:{node.port}/"
         await client.call(master.uri, "registerSubscriber", "/n", "/t", "a/T", uri)
         await client.call(master.uri, "registerPublisher", "/p", "/t", "a/T", "http://p:1/")

@@ -62,7 +62,7 @@ STEPS: list[Step] = [
 async def test_notifications_are_those_of_rosmaster(
     rosmaster: str, make_node: Callable[[str], Awaitable[Any]]
 ) -> None:
-    async with Master("127.0.0.1", port=0) as ours:
+    async with Master("127.0.0.1", port=0, rosout=False) as ours:
         expected = await _told(rosmaster, make_node)
         got = await _told(ours.uri, make_node)
     different = []

@@ -219,11 +219,12 @@ async def test_connecting_sets_what_roscpp_sets(listening):
     await drop(stream)
 
 
-async def test_a_refused_connection_names_host_and_port(listening):
-    port = listening.getsockname()[1]
-    listening.close()
-    with pytest.raises(ConnectionError, match=rf"127.0.0.1:{port}"):
-        await connect("127.0.0.1", port, timeout=5)
+async def test_a_refused_connection_names_host_and_port():
+    with socket.socket() as deaf:  # bound, so that nobody takes the port, but not listening
+        deaf.bind(("127.0.0.1", 0))
+        port = deaf.getsockname()[1]
+        with pytest.raises(ConnectionError, match=rf"127.0.0.1:{port}"):
+            await connect("127.0.0.1", port, timeout=5)
 
 
 async def test_a_connection_that_takes_too_long_names_host_and_port():
