@@ -14,20 +14,20 @@ from urllib.parse import urlsplit
 from aioros1 import names
 from aioros1.acceptor import Acceptor
 from aioros1.clock import Clock, Timer
-from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, Event, EventStream
 from aioros1.graph import Graph
 from aioros1.heartbeat import Heartbeat
+from aioros1.identity import Identity
 from aioros1.idl import MessageStore, default_store
 from aioros1.master_proxy import MasterProxy
 from aioros1.net.hosts import bind_address_for, is_loopback, local_address_facing, resolve, uri_host
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
-from aioros1.options import Limits, NodeOptions, OnError, Timeouts
-from aioros1.param_subscriber import ParamSubscriber
+from aioros1.options import Limits, NodeOptions, OnError, Overflow, Timeouts
+from aioros1.param_calls import ParamCalls
 from aioros1.peer import NodeProxy
-from aioros1.private_params import parse_value
-from aioros1.publisher import Overflow, Publisher, PublisherOptions
+from aioros1.publisher import Publisher, PublisherOptions
 from aioros1.role import NodeStats, Opening, Role
 from aioros1.roles import Roles
 from aioros1.rosout import Rosout, logger_name, serve_logger_levels
@@ -38,18 +38,14 @@ from aioros1.subscriber import Subscriber, SubscriberOptions
 from aioros1.supervisor import Supervisor
 from aioros1.time import Duration, Time
 from aioros1.waiting import deadline
-from aioros1.wire.xmlrpc import decode_response, encode_response
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
 
 __all__ = ["Node"]
 
-DEFAULT_MASTER_URI = "http://localhost:11311"
-_OVERFLOWS = ("drop_oldest", "drop_newest", "block")
 
-
-class Node:
+class Node(ParamCalls):
     """A node of a ROS graph, in the event loop it is started in.
 
     ::
@@ -99,10 +95,7 @@ class Node:
         limits: Limits = Limits(),  # noqa: B008 - frozen
         on_error: OnError = "raise",
     ) -> None:
-        if on_error not in ("raise", "log") and not callable(on_error):
-            raise ValueError(f"on_error must be 'raise', 'log' or callable, got {on_error!r}")
-        if heartbeat is not None and not heartbeat > 0:
-            raise ValueError(f"heartbeat must be positive or None, got {heartbeat!r}")
+        super().__init__()
         self.options = NodeOptions(
             namespace=namespace,
             master_uri=master_uri,
@@ -127,31 +120,16 @@ class Node:
         self.peer_definitions = MessageStore(parent=self.store)
         """Definitions that publishers sent: a store of their own, so that what a peer
         says is never found by who asks for a type by name."""
-        arguments = names.parse_args(argv or ())
-        special = arguments.special
-        environ = os.environ
-        self.base_name = names.validate_base_name(special.get("__name", name))
-        if anonymous and "__name" not in special:
-            self.base_name = names.anonymous_name(self.base_name)
-        self.namespace = names.normalize_namespace(
-            _first(namespace, special.get("__ns"), environ.get("ROS_NAMESPACE")) or "/"
+        identity = Identity.of(
+            name, self.options.argv or (), namespace, master_uri, host, remap, anonymous
         )
-        self.name = names.qualify(self.namespace, self.base_name)
-        self.master_uri = _http_uri(
-            _first(master_uri, special.get("__master"), environ.get("ROS_MASTER_URI"))
-            or DEFAULT_MASTER_URI
-        )
-        self._host = _first(
-            host,
-            special.get("__hostname"),
-            special.get("__ip"),
-            environ.get("ROS_HOSTNAME"),
-            environ.get("ROS_IP"),
-        )
-        self._remappings = names.resolve_remappings(
-            {**arguments.remappings, **(remap or {})}, self.namespace, self.name
-        )
-        self._private_params = {key: parse_value(text) for key, text in arguments.params.items()}
+        self.base_name = identity.base_name
+        self.namespace = identity.namespace
+        self.name = identity.name
+        self.master_uri = identity.master_uri
+        self._host = identity.host
+        self._remappings = identity.remappings
+        self._private_params = identity.private_params
         self.log = logging.LoggerAdapter(logging.getLogger(logger_name(self.name)), {})
         self.graph = Graph(self)
 
@@ -175,7 +153,6 @@ class Node:
         self._rosout: Rosout | None = None
 
         self._roles = Roles(self)
-        self._cached: dict[str, ParamSubscriber] = {}
 
     # life
 
@@ -353,8 +330,8 @@ class Node:
         """
         options = PublisherOptions(
             latch=latch,
-            queue_size=_checked_size(queue_size),
-            overflow=_checked_overflow(overflow),
+            queue_size=queue_size,
+            overflow=overflow,
             tcp_nodelay=tcp_nodelay,
             headers=headers,
         )
@@ -377,8 +354,8 @@ class Node:
         each publisher defines them. Raises as :meth:`advertise` does.
         """
         options = SubscriberOptions(
-            queue_size=_checked_size(queue_size),
-            overflow=_checked_overflow(overflow),
+            queue_size=queue_size,
+            overflow=overflow,
             tcp_nodelay=tcp_nodelay,
             raw=raw,
             views=views,
@@ -418,8 +395,6 @@ class Node:
         Raises as :meth:`advertise` does, and :class:`ValueError` when this node provides
         the service already.
         """
-        if max_concurrency is not None and max_concurrency < 1:
-            raise ValueError(f"max_concurrency must be at least 1, got {max_concurrency!r}")
         options = ServiceProviderOptions(max_concurrency=max_concurrency)
         return Opening(self._roles.advertise_service(name, type, handler, options))
 
@@ -465,99 +440,6 @@ class Node:
         # Of whatever type: to be asked whether it is there, a provider need not know.
         async with self.service_caller(name, "std_srvs/Empty") as caller:
             await caller.wait_for_service(timeout=timeout)
-
-    # parameters
-
-    def subscribe_param(self, key: str, *, default: Any = ...) -> Opening[ParamSubscriber]:
-        """Follow a parameter and all below it.
-
-        ``default`` is its value while it is not set. Raises
-        :class:`~aioros1.MasterError`, :class:`~aioros1.InvalidNameError` and
-        :class:`~aioros1.ClosedError`.
-        """
-        return Opening(self._roles.subscribe_param(key, default))
-
-    async def get_param(self, key: str, default: Any = ...) -> Any:
-        """The value of a parameter, or a dict of all below it.
-
-        Raises :class:`KeyError` when it is not set and there is no default, and
-        :class:`~aioros1.MasterUnreachable`.
-        """
-        key = self._param_key(key)
-        try:
-            return await self.master.get_param(key)
-        except MasterUnreachable:
-            raise
-        except MasterError:
-            if default is ...:
-                raise KeyError(key) from None
-            return default
-
-    async def set_param(self, key: str, value: Any) -> None:
-        """Set a parameter: bool, int, float, str, list, dict, bytes or datetime.
-
-        Raises :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for what
-        XML-RPC cannot carry, and :class:`~aioros1.MasterError`.
-        """
-        key = self._param_key(key)
-        await self.master.set_param(key, value)
-        # The master tells everybody but the one who did it. What we tell ourselves is what
-        # the others get: a list for a tuple, and nothing that the caller can still change.
-        self._roles.param_updated(key, decode_response(encode_response(value)))
-
-    async def has_param(self, key: str) -> bool:
-        """Whether a parameter is set. Raises :class:`~aioros1.MasterError`."""
-        return await self.master.has_param(self._param_key(key))
-
-    async def delete_param(self, key: str) -> None:
-        """Delete a parameter and all below it.
-
-        Raises :class:`KeyError` when it is not set, and
-        :class:`~aioros1.MasterUnreachable`.
-        """
-        key = self._param_key(key)
-        try:
-            await self.master.delete_param(key)
-        except MasterUnreachable:
-            raise
-        except MasterError:
-            raise KeyError(key) from None
-        self._roles.param_updated(key, {})
-
-    async def search_param(self, key: str) -> str | None:
-        """The full key of the nearest parameter of that name: in the node's private
-        namespace, then in its namespace and up to the root. None if there is none.
-
-        Raises :class:`~aioros1.MasterUnreachable`.
-        """
-        try:
-            return await self.master.search_param(key)
-        except MasterUnreachable:
-            raise
-        except MasterError:
-            return None
-
-    async def get_param_names(self) -> list[str]:
-        """The keys of all parameters. Raises :class:`~aioros1.MasterError`."""
-        return await self.master.get_param_names()
-
-    async def get_param_cached(self, key: str, default: Any = ...) -> Any:
-        """As :meth:`get_param`, but follows the parameter from the first time on, so that
-        the master is not asked again."""
-        resolved = self._param_key(key)
-        subscriber = self._cached.get(resolved)
-        if subscriber is None:
-            subscriber = await self.subscribe_param(resolved)
-            # Somebody else may have done the same in the meantime.
-            if resolved in self._cached:
-                await subscriber.close()
-            subscriber = self._cached.setdefault(resolved, subscriber)
-        try:
-            return subscriber.value
-        except KeyError:
-            if default is ...:
-                raise
-            return default
 
     # the graph
 
@@ -612,10 +494,6 @@ class Node:
         if self._state != "open":
             why = f" ({self.close_reason})" if self.close_reason is not None else ""
             raise ClosedError(f"node {self.name} is {self._state}, not open{why}")
-
-    def _param_key(self, key: str) -> str:
-        self._check_open()
-        return "/" if key == "/" else self.resolve_name(key)
 
     def _spawn(
         self, function: Callable[..., Awaitable[Any]], *args: Any, name: str
@@ -720,33 +598,3 @@ class Node:
         self._roles.abort()
         self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))
         self._events.close()
-
-
-def _first(*values: str | None) -> str | None:
-    """The first that is neither None nor empty."""
-    return next((value for value in values if value), None)
-
-
-def _http_uri(uri: str) -> str:
-    try:
-        parts = urlsplit(uri)
-        valid = parts.scheme == "http" and parts.hostname and (parts.port or 1)
-    except ValueError:
-        valid = False
-    if not valid:
-        raise ValueError(f"master URI {uri!r}: expected http://host:port")
-    return uri
-
-
-def _checked_size(queue_size: int) -> int:
-    if not isinstance(queue_size, int) or queue_size < 1:
-        raise ValueError(
-            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}"
-        )
-    return queue_size
-
-
-def _checked_overflow(overflow: Overflow) -> Overflow:
-    if overflow not in _OVERFLOWS:
-        raise ValueError(f"overflow must be one of {', '.join(_OVERFLOWS)}, got {overflow!r}")
-    return overflow

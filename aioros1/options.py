@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
-__all__ = ["Limits", "NodeOptions", "OnError", "Timeouts"]
+__all__ = ["Limits", "NodeOptions", "OnError", "Overflow", "Timeouts", "check_queue"]
+
+Overflow = Literal["drop_oldest", "drop_newest", "block"]
+"""What happens to a message when a queue is full."""
 
 OnError = Literal["raise", "log"] | Callable[[Exception], object]
 """What becomes of an exception that a user's callback raises where nobody awaits it."""
@@ -80,3 +83,20 @@ class NodeOptions:
     timeouts: Timeouts = Timeouts()
     limits: Limits = Limits()
     on_error: OnError = "raise"
+
+    def __post_init__(self) -> None:
+        if self.on_error not in ("raise", "log") and not callable(self.on_error):
+            raise ValueError(f"on_error must be 'raise', 'log' or callable, got {self.on_error!r}")
+        if self.heartbeat is not None and not self.heartbeat > 0:
+            raise ValueError(f"heartbeat must be positive or None, got {self.heartbeat!r}")
+
+
+def check_queue(queue_size: int, overflow: str) -> None:
+    """Raise :class:`ValueError` for options of a queue that mean nothing."""
+    if not isinstance(queue_size, int) or queue_size < 1:
+        raise ValueError(
+            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}"
+        )
+    if overflow not in get_args(Overflow):
+        choices = ", ".join(map(repr, get_args(Overflow)))
+        raise ValueError(f"overflow must be one of {choices}, got {overflow!r}")

@@ -6,11 +6,12 @@ import asyncio
 import contextlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from aioros1.fields import message_from
 from aioros1.idl import Message
 from aioros1.net.topic_links import JOIN, Frame
+from aioros1.options import Overflow, check_queue
 from aioros1.role import Role
 from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
@@ -20,10 +21,7 @@ if TYPE_CHECKING:
     from aioros1.node import Node
     from aioros1.publication import Publication
 
-__all__ = ["Overflow", "Publisher", "PublisherOptions"]
-
-Overflow = Literal["drop_oldest", "drop_newest", "block"]
-"""What happens to a message when a queue is full."""
+__all__ = ["Publisher", "PublisherOptions"]
 
 M = TypeVar("M", bound=Message)
 
@@ -46,6 +44,9 @@ class PublisherOptions:
 
     headers: Mapping[str, str] | None = field(default=None)
     """Additional fields of the connection header that subscribers get."""
+
+    def __post_init__(self) -> None:
+        check_queue(self.queue_size, self.overflow)
 
 
 class Publisher(Role, Generic[M]):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import builtins
+from abc import ABC, abstractmethod
 from collections.abc import Coroutine, Generator
 from dataclasses import dataclass
 from types import TracebackType
@@ -49,7 +50,7 @@ class NodeStats:
     """Connections closed at once because there were ``limits.connections`` already."""
 
 
-class Role:
+class Role(ABC):
     """A publisher, subscriber, service provider, service caller or parameter subscriber.
 
     A role is open from the moment its factory on :class:`Node` hands it out. It is
@@ -119,8 +120,8 @@ class Role:
         finally:
             self._node._roles.open.pop(self, None)
 
-    async def _close(self) -> None:
-        raise NotImplementedError
+    @abstractmethod
+    async def _close(self) -> None: ...
 
     def _abort(self) -> None:
         """The node has ended: wake up whoever waits here, tell nobody."""

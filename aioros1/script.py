@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from aioros1.errors import ClosedError
+from aioros1.identity import DEFAULT_MASTER_URI
 from aioros1.net.xmlrpc_client import XmlRpcClient
-from aioros1.node import DEFAULT_MASTER_URI, Node
+from aioros1.node import Node
 from aioros1.waiting import deadline
 
 __all__ = ["run", "wait_for_master"]

@@ -44,6 +44,10 @@ class ServiceProviderOptions:
     max_concurrency: int | None = None
     """Calls that are worked on at a time; further ones wait, in the order they came."""
 
+    def __post_init__(self) -> None:
+        if self.max_concurrency is not None and self.max_concurrency < 1:
+            raise ValueError(f"max_concurrency must be at least 1, got {self.max_concurrency!r}")
+
 
 class ServiceCall(Generic[Q, A]):
     """A call that waits for its answer; an item of ``async for call in provider``."""

@@ -12,7 +12,7 @@ from weakref import WeakKeyDictionary
 
 from aioros1.errors import DeserializationError, InvalidNameError, MessageError
 from aioros1.net.topic_links import IncomingLink, Received
-from aioros1.publisher import Overflow
+from aioros1.options import Overflow, check_queue
 from aioros1.role import Role
 from aioros1.time import Time
 from aioros1.waiting import Waiters, deadline
@@ -51,6 +51,9 @@ class SubscriberOptions:
     views: bool = False
     """Hand out numeric arrays and ``uint8[]`` as memoryviews of what was received,
     without copying them."""
+
+    def __post_init__(self) -> None:
+        check_queue(self.queue_size, self.overflow)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,13 +5,13 @@ Pure: nothing here does any networking or needs an event loop.
 
 from __future__ import annotations
 
-from .convert import convert, from_dict, to_dict
-from .digest import full_text, md5_text, md5sum
-from .message import Message
-from .parser import parse_action, parse_message, parse_service
-from .service import Action, Service
-from .spec import ActionSpec, Constant, Field, MessageSpec, ServiceSpec
-from .store import MessageStore, default_store, load_action, load_msg, load_srv
+from aioros1.idl.convert import convert, from_dict, to_dict
+from aioros1.idl.digest import full_text, md5_text, md5sum
+from aioros1.idl.message import Message
+from aioros1.idl.parser import parse_action, parse_message, parse_service
+from aioros1.idl.service import Action, Service
+from aioros1.idl.spec import ActionSpec, Constant, Field, MessageSpec, ServiceSpec
+from aioros1.idl.store import MessageStore, default_store, load_action, load_msg, load_srv
 
 __all__ = [
     "Action",

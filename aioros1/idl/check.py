@@ -10,13 +10,13 @@ from collections.abc import Callable
 from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from ..errors import SerializationError
-from . import values
-from .builtin_types import BUILTINS, Builtin
-from .spec import Field
+from aioros1.errors import SerializationError
+from aioros1.idl import values
+from aioros1.idl.builtin_types import BUILTINS, Builtin
+from aioros1.idl.spec import Field
 
 if TYPE_CHECKING:
-    from .message import Message
+    from aioros1.idl.message import Message
 
 __all__ = ["describe", "normalise"]
 

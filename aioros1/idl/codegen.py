@@ -30,13 +30,13 @@ from collections.abc import Callable
 from keyword import iskeyword
 from typing import TYPE_CHECKING, Any
 
-from ..time import Duration, Time
-from . import values
-from .builtin_types import BUILTINS
-from .spec import Field
+from aioros1.idl import values
+from aioros1.idl.builtin_types import BUILTINS
+from aioros1.idl.spec import Field
+from aioros1.time import Duration, Time
 
 if TYPE_CHECKING:
-    from .message import Message
+    from aioros1.idl.message import Message
 
 __all__ = ["Source", "encoder_source", "make_encoder"]
 

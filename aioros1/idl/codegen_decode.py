@@ -26,13 +26,13 @@ from collections.abc import Callable
 from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from . import values
-from .builtin_types import BUILTINS
-from .codegen import Source
-from .spec import Field
+from aioros1.idl import values
+from aioros1.idl.builtin_types import BUILTINS
+from aioros1.idl.codegen import Source
+from aioros1.idl.spec import Field
 
 if TYPE_CHECKING:
-    from .message import Message
+    from aioros1.idl.message import Message
 
 __all__ = ["MAX_EMPTY", "Mode", "decoder_source", "make_decoder"]
 

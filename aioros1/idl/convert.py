@@ -6,13 +6,13 @@ from array import array
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
-from ..errors import SerializationError
-from ..time import Duration, Time
-from . import values
-from .builtin_types import BUILTINS
-from .check import describe
-from .message import Message
-from .spec import Field
+from aioros1.errors import SerializationError
+from aioros1.idl import values
+from aioros1.idl.builtin_types import BUILTINS
+from aioros1.idl.check import describe
+from aioros1.idl.message import Message
+from aioros1.idl.spec import Field
+from aioros1.time import Duration, Time
 
 __all__ = ["arrays_to_numpy", "convert", "from_dict", "to_dict", "values_equal"]
 

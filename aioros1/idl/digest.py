@@ -9,8 +9,8 @@ import hashlib
 from collections.abc import Callable
 from typing import TypeAlias
 
-from ..errors import MessageSpecError
-from .spec import MessageSpec, ServiceSpec
+from aioros1.errors import MessageSpecError
+from aioros1.idl.spec import MessageSpec, ServiceSpec
 
 __all__ = ["Lookup", "closure", "full_text", "md5_text", "md5sum", "split_full_text"]
 

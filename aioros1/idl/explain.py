@@ -6,13 +6,13 @@ import struct
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ..errors import DeserializationError
-from .builtin_types import BUILTINS
-from .codegen_decode import MAX_EMPTY
-from .spec import Field
+from aioros1.errors import DeserializationError
+from aioros1.idl.builtin_types import BUILTINS
+from aioros1.idl.codegen_decode import MAX_EMPTY
+from aioros1.idl.spec import Field
 
 if TYPE_CHECKING:
-    from .message import Message
+    from aioros1.idl.message import Message
 
 __all__ = ["explainer"]
 

@@ -7,11 +7,11 @@ from collections.abc import Callable, Mapping
 from keyword import iskeyword
 from typing import Any, cast
 
-from ..errors import MessageSpecError
-from ..time import Duration, Time
-from .builtin_types import BUILTINS
-from .message import Message, MessageType
-from .spec import Field, MessageSpec
+from aioros1.errors import MessageSpecError
+from aioros1.idl.builtin_types import BUILTINS
+from aioros1.idl.message import Message, MessageType
+from aioros1.idl.spec import Field, MessageSpec
+from aioros1.time import Duration, Time
 
 __all__ = ["make_message_class"]
 

@@ -7,9 +7,9 @@ import struct
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, NoReturn, Protocol, TypeVar
 
-from ..errors import SerializationError
-from .spec import Constant, Field, MessageSpec
-from .values import own_memory
+from aioros1.errors import SerializationError
+from aioros1.idl.spec import Constant, Field, MessageSpec
+from aioros1.idl.values import own_memory
 
 __all__ = ["Message", "MessageType", "Writable"]
 
@@ -133,7 +133,7 @@ class Message(metaclass=MessageType):
 
     def deserialize_numpy(self: _M, data: bytes, numpy: Any) -> _M:
         """As :meth:`deserialize`, with NumPy arrays for arrays of numbers."""
-        from .convert import arrays_to_numpy
+        from aioros1.idl.convert import arrays_to_numpy
 
         self.deserialize(data)
         arrays_to_numpy(self, numpy)
@@ -147,7 +147,7 @@ class Message(metaclass=MessageType):
         Times become ``{"secs": ..., "nsecs": ...}``, arrays lists; ``uint8[]`` stays
         bytes.
         """
-        from .convert import to_dict
+        from aioros1.idl.convert import to_dict
 
         return to_dict(self)
 
@@ -159,7 +159,7 @@ class Message(metaclass=MessageType):
         for unknown fields and values of the wrong shape; what is left is checked when
         the message is serialised.
         """
-        from .convert import from_dict
+        from aioros1.idl.convert import from_dict
 
         return from_dict(cls, values)
 
@@ -184,7 +184,7 @@ class Message(metaclass=MessageType):
             or getattr(kind, "_type", None) != cls._type
         ):
             return NotImplemented
-        from .convert import values_equal
+        from aioros1.idl.convert import values_equal
 
         return all(
             values_equal(getattr(self, name, None), getattr(other, name, None))
@@ -192,12 +192,12 @@ class Message(metaclass=MessageType):
         )
 
     def __repr__(self) -> str:
-        from .text import message_repr
+        from aioros1.idl.text import message_repr
 
         return message_repr(self)
 
     def __str__(self) -> str:
-        from .text import message_text
+        from aioros1.idl.text import message_text
 
         return message_text(self)
 
@@ -219,7 +219,7 @@ class Message(metaclass=MessageType):
         return result
 
     def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
-        from .pickling import reduce_message
+        from aioros1.idl.pickling import reduce_message
 
         return reduce_message(self)
 
@@ -256,12 +256,12 @@ def _unknown_field(cls: type[Message], name: str) -> NoReturn:
 
 def _slow_path(cls: type[Message]) -> Callable[[Any, Exception], bytes]:
     """What encodes when the fast encoder could not: with every value looked at."""
-    from .codegen import make_encoder
+    from aioros1.idl.codegen import make_encoder
 
     encoders: list[Callable[[Any], bytes]] = []
 
     def encode(message: Any, failure: Exception) -> bytes:
-        from .check import normalise
+        from aioros1.idl.check import normalise
 
         if not encoders:
             encoders.append(make_encoder(cls))
@@ -281,13 +281,13 @@ def _slow_path(cls: type[Message]) -> Callable[[Any, Exception], bytes]:
 
 
 def _make_encode(cls: type[Message]) -> Callable[..., Any]:
-    from .codegen import make_encoder
+    from aioros1.idl.codegen import make_encoder
 
     return make_encoder(cls, _slow_path(cls))
 
 
 def _make_frame(cls: type[Message]) -> Callable[..., Any]:
-    from .codegen import make_encoder
+    from aioros1.idl.codegen import make_encoder
 
     slow = _slow_path(cls)
 
@@ -299,7 +299,7 @@ def _make_frame(cls: type[Message]) -> Callable[..., Any]:
 
 
 def _make_frame_parts(cls: type[Message]) -> Callable[..., Any]:
-    from .codegen import make_encoder
+    from aioros1.idl.codegen import make_encoder
 
     slow = _slow_path(cls)
 
@@ -312,8 +312,8 @@ def _make_frame_parts(cls: type[Message]) -> Callable[..., Any]:
 
 def _make_decoder(mode: Any, exact: bool = False) -> Callable[[type[Message]], Any]:
     def make(cls: type[Message]) -> Callable[..., Any]:
-        from .codegen_decode import make_decoder
-        from .explain import explainer
+        from aioros1.idl.codegen_decode import make_decoder
+        from aioros1.idl.explain import explainer
 
         explain = explainer(cls, exact=exact)
         made: list[Callable[[Any, int, int], Any]] = []

@@ -14,9 +14,9 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
-from ..errors import MessageNotFoundError
-from .paths import Kind
-from .store import default_store
+from aioros1.errors import MessageNotFoundError
+from aioros1.idl.paths import Kind
+from aioros1.idl.store import default_store
 
 __all__ = ["DefinitionFinder", "install_finder", "package_module", "package_names"]
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from ..errors import InvalidNameError, MessageSpecError
-from .builtin_types import BUILTINS, CONSTANT_TYPES, HEADER_TYPE, is_builtin
-from .spec import ActionSpec, Constant, ConstantValue, Field, MessageSpec, ServiceSpec
+from aioros1.errors import InvalidNameError, MessageSpecError
+from aioros1.idl.builtin_types import BUILTINS, CONSTANT_TYPES, HEADER_TYPE, is_builtin
+from aioros1.idl.spec import ActionSpec, Constant, ConstantValue, Field, MessageSpec, ServiceSpec
 
 __all__ = ["action_texts", "parse_action", "parse_message", "parse_service", "split_type"]
 

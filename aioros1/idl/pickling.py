@@ -6,11 +6,11 @@ import sys
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from .values import own_memory
+from aioros1.idl.values import own_memory
 
 if TYPE_CHECKING:
-    from .message import Message
-    from .store import MessageStore
+    from aioros1.idl.message import Message
+    from aioros1.idl.store import MessageStore
 
 __all__ = ["reduce_message"]
 
@@ -38,7 +38,7 @@ def _restore(cls: type[Message], values: tuple[Any, ...]) -> Message:
 @cache
 def _store() -> MessageStore:
     """A store of their own: what was pickled here must not be found by name there."""
-    from .store import MessageStore
+    from aioros1.idl.store import MessageStore
 
     return MessageStore()
 

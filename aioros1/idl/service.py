@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from .message import Message
-from .spec import ActionSpec, ServiceSpec
+from aioros1.idl.message import Message
+from aioros1.idl.spec import ActionSpec, ServiceSpec
 
 __all__ = ["Action", "Service", "make_action_class", "make_service_class"]
 

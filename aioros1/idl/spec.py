@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from .builtin_types import HEADER_TYPE, is_builtin
+from aioros1.idl.builtin_types import HEADER_TYPE, is_builtin
 
 __all__ = ["ActionSpec", "Constant", "ConstantValue", "Field", "MessageSpec", "ServiceSpec"]
 

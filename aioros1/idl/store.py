@@ -11,14 +11,14 @@ from pathlib import Path
 from threading import RLock
 from typing import Any, Final, TypeAlias
 
-from ..errors import MessageNotFoundError, MessageSpecError
-from . import digest
-from .factory import make_message_class
-from .message import Message
-from .parser import action_texts, parse_action, parse_message, parse_service, split_type
-from .paths import KINDS, Kind, SearchPath
-from .service import Action, Service, make_action_class, make_service_class
-from .spec import MessageSpec, ServiceSpec
+from aioros1.errors import MessageNotFoundError, MessageSpecError
+from aioros1.idl import digest
+from aioros1.idl.factory import make_message_class
+from aioros1.idl.message import Message
+from aioros1.idl.parser import action_texts, parse_action, parse_message, parse_service, split_type
+from aioros1.idl.paths import KINDS, Kind, SearchPath
+from aioros1.idl.service import Action, Service, make_action_class, make_service_class
+from aioros1.idl.spec import MessageSpec, ServiceSpec
 
 __all__ = ["MessageStore", "default_store", "load_action", "load_msg", "load_srv"]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from ..time import Duration, Time
+from aioros1.time import Duration, Time
 
 if TYPE_CHECKING:
-    from .message import Message
+    from aioros1.idl.message import Message
 
 __all__ = ["message_repr", "message_text", "quote"]
 

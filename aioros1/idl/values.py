@@ -16,7 +16,7 @@ from collections.abc import Set as AbstractSet
 from math import inf, isinf
 from typing import Any, Final
 
-from ..time import Duration, Time
+from aioros1.time import Duration, Time
 
 __all__ = [
     "as_bool",

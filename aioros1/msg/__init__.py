@@ -9,7 +9,7 @@ The modules are made at run time; see :mod:`aioros1.idl.modules`.
 
 from __future__ import annotations
 
-from ..idl.modules import install_finder, package_module, package_names
+from aioros1.idl.modules import install_finder, package_module, package_names
 
 __all__: list[str] = []
 

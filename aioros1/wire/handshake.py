@@ -15,6 +15,7 @@ MATLAB need; which are required is what rospy and roscpp require.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -46,7 +47,7 @@ class ServiceOffer:
     md5sum: str
 
 
-class _Side:
+class _Side(ABC):
     """Receives one header. ``peer`` names the other side in errors."""
 
     def __init__(self, peer: str, *, max_bytes: int, max_fields: int) -> None:
@@ -81,8 +82,8 @@ class _Side:
         self._check(header)
         return True
 
-    def _check(self, header: dict[str, str]) -> None:
-        raise NotImplementedError
+    @abstractmethod
+    def _check(self, header: dict[str, str]) -> None: ...
 
     def _fail(self, text: str) -> HandshakeError:
         return HandshakeError(self.peer, text)
@@ -94,8 +95,8 @@ class _Client(_Side):
     def data_to_send(self) -> bytes:
         return encode_header(self._request())
 
-    def _request(self) -> dict[str, str]:
-        raise NotImplementedError
+    @abstractmethod
+    def _request(self) -> dict[str, str]: ...
 
     def _check_md5sum(self, ours: str, what: str) -> None:
         # rospy and roscpp take what comes, whatever its md5sum. They then decode it

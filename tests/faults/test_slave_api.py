@@ -8,6 +8,7 @@ import re
 
 import pytest
 
+import aioros1
 from aioros1.msg.std_msgs import String
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
@@ -207,6 +208,15 @@ async def test_S10_trap_15_a_parameter_that_is_followed(node, ask, key):
         assert param.value == {"speed": 1, "arm": {"force": 2}}
         assert (await ask(node, "paramUpdate", "/limits_of_others/", 3))[0] == -1
     assert (await ask(node, "paramUpdate", key, 1))[0] == -1
+
+
+async def test_trap_15_the_master_forgets_a_parameter_that_is_followed_no_more(node, make_node):
+    other = await make_node("other")
+    async with node.subscribe_param("limits"), node.subscribe_param("limits/speed"):
+        await other.set_param("/limits/speed", 1)
+        assert await other.master.lookup_node("/talker") == node.uri
+    with pytest.raises(aioros1.MasterError):  # it has no other business there
+        await other.master.lookup_node("/talker")
 
 
 @pytest.mark.parametrize("reason", [("go home",), ("",), ()])

@@ -228,8 +228,7 @@ async def test_T18_what_a_subscriber_says_behind_its_header_is_ignored(node, pub
     assert await bystander.is_served()
 
 
-async def test_T19_a_subscriber_that_never_reads_slows_nobody(make_node, node, bystander):
-    # trap 16
+async def test_T19_trap_16_a_subscriber_that_never_reads_slows_nobody(make_node, node, bystander):
     payload = bytes(1_000_000)
     other = await make_node("listener")
     async with (

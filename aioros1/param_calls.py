@@ -1,0 +1,128 @@
+"""The parameter server, as a node uses it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any
+
+from aioros1.errors import MasterError, MasterUnreachable
+from aioros1.param_subscriber import ParamSubscriber
+from aioros1.role import Opening
+from aioros1.wire.xmlrpc import decode_response, encode_response
+
+if TYPE_CHECKING:
+    from aioros1.master_proxy import MasterProxy
+    from aioros1.roles import Roles
+
+__all__ = ["ParamCalls"]
+
+
+class ParamCalls(ABC):
+    """The part of :class:`Node` that is about parameters."""
+
+    master: MasterProxy
+    _roles: Roles
+
+    def __init__(self) -> None:
+        self._cached: dict[str, ParamSubscriber] = {}
+
+    @abstractmethod
+    def resolve_name(self, name: str) -> str: ...
+
+    @abstractmethod
+    def _check_open(self) -> None: ...
+
+    def subscribe_param(self, key: str, *, default: Any = ...) -> Opening[ParamSubscriber]:
+        """Follow a parameter and all below it.
+
+        ``default`` is its value while it is not set. Raises
+        :class:`~aioros1.MasterError`, :class:`~aioros1.InvalidNameError` and
+        :class:`~aioros1.ClosedError`.
+        """
+        return Opening(self._roles.subscribe_param(key, default))
+
+    async def get_param(self, key: str, default: Any = ...) -> Any:
+        """The value of a parameter, or a dict of all below it.
+
+        Raises :class:`KeyError` when it is not set and there is no default, and
+        :class:`~aioros1.MasterUnreachable`.
+        """
+        key = self._param_key(key)
+        try:
+            return await self.master.get_param(key)
+        except MasterUnreachable:
+            raise
+        except MasterError:
+            if default is ...:
+                raise KeyError(key) from None
+            return default
+
+    async def set_param(self, key: str, value: Any) -> None:
+        """Set a parameter: bool, int, float, str, list, dict, bytes or datetime.
+
+        Raises :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for what
+        XML-RPC cannot carry, and :class:`~aioros1.MasterError`.
+        """
+        key = self._param_key(key)
+        await self.master.set_param(key, value)
+        # The master tells everybody but the one who did it. What we tell ourselves is what
+        # the others get: a list for a tuple, and nothing that the caller can still change.
+        self._roles.param_updated(key, decode_response(encode_response(value)))
+
+    async def has_param(self, key: str) -> bool:
+        """Whether a parameter is set. Raises :class:`~aioros1.MasterError`."""
+        return await self.master.has_param(self._param_key(key))
+
+    async def delete_param(self, key: str) -> None:
+        """Delete a parameter and all below it.
+
+        Raises :class:`KeyError` when it is not set, and
+        :class:`~aioros1.MasterUnreachable`.
+        """
+        key = self._param_key(key)
+        try:
+            await self.master.delete_param(key)
+        except MasterUnreachable:
+            raise
+        except MasterError:
+            raise KeyError(key) from None
+        self._roles.param_updated(key, {})
+
+    async def search_param(self, key: str) -> str | None:
+        """The full key of the nearest parameter of that name: in the node's private
+        namespace, then in its namespace and up to the root. None if there is none.
+
+        Raises :class:`~aioros1.MasterUnreachable`.
+        """
+        try:
+            return await self.master.search_param(key)
+        except MasterUnreachable:
+            raise
+        except MasterError:
+            return None
+
+    async def get_param_names(self) -> list[str]:
+        """The keys of all parameters. Raises :class:`~aioros1.MasterError`."""
+        return await self.master.get_param_names()
+
+    async def get_param_cached(self, key: str, default: Any = ...) -> Any:
+        """As :meth:`get_param`, but follows the parameter from the first time on, so that
+        the master is not asked again."""
+        resolved = self._param_key(key)
+        subscriber = self._cached.get(resolved)
+        if subscriber is None:
+            subscriber = await self.subscribe_param(resolved)
+            # Somebody else may have done the same in the meantime.
+            if resolved in self._cached:
+                await subscriber.close()
+            subscriber = self._cached.setdefault(resolved, subscriber)
+        try:
+            return subscriber.value
+        except KeyError:
+            if default is ...:
+                raise
+            return default
+
+    def _param_key(self, key: str) -> str:
+        self._check_open()
+        return "/" if key == "/" else self.resolve_name(key)
