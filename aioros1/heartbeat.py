@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from aioros1.errors import MasterError, MasterUnreachable
+from aioros1.errors import ClosedError, MasterError, MasterUnreachable
 from aioros1.events import MasterLost, MasterRestarted
 
 if TYPE_CHECKING:
@@ -56,8 +56,8 @@ class Heartbeat:
         node = self._node
         try:
             identity = await self._ask()
-        except MasterError as error:
-            if not self._is_lost:
+        except (MasterError, ClosedError) as error:
+            if not self._is_lost and not self._is_stopped:
                 self._is_lost = True
                 node.log.warning("lost the master at %s: %s", node.master_uri, error)
                 node._emit(MasterLost(node.master_uri, str(error)))

@@ -17,7 +17,7 @@ async def next_of(events, kind):
 
 
 async def test_everything_is_registered_again_at_a_restarted_master():
-    async with aioros1.Master(host="localhost", port=0) as old:
+    async with aioros1.Master(host="localhost", port=0, rosout=False) as old:
         port = old.port
         node = aioros1.Node("survivor", master_uri=old.uri, host="localhost", heartbeat=0.02)
         await node.start()
@@ -31,7 +31,9 @@ async def test_everything_is_registered_again_at_a_restarted_master():
     assert lost.uri == node.master_uri
     pub.publish(data="topics go on flowing")
     assert (await sub.get(timeout=5)).data == "topics go on flowing"
-    async with aioros1.Master(host="localhost", port=port, params={"/gain": 2}) as new:
+    async with aioros1.Master(
+        host="localhost", port=port, rosout=False, params={"/gain": 2}
+    ) as new:
         restarted = await next_of(events, aioros1.MasterRestarted)
         assert restarted.run_id == new.run_id == node.run_id
         state = await node.master.get_system_state()
@@ -62,12 +64,12 @@ async def test_a_master_that_was_replaced_without_a_gap_is_noticed(monkeypatch, 
 
 
 async def test_a_node_that_was_started_before_its_master_greets_it_later():
-    async with aioros1.Master(host="localhost", port=0) as reserved:
+    async with aioros1.Master(host="localhost", port=0, rosout=False) as reserved:
         port = reserved.port
     uri = f"http://localhost:{port}"
     async with aioros1.Node("early", master_uri=uri, host="localhost", argv=["_x:=1"]) as node:
         waiting = asyncio.create_task(node.wait_for_master(timeout=10))
-        async with aioros1.Master(host="localhost", port=port) as master:
+        async with aioros1.Master(host="localhost", port=port, rosout=False) as master:
             await waiting
             await aioros1.wait_for_master(uri, timeout=5)
             assert node.run_id == master.run_id

@@ -22,13 +22,21 @@ from .peers import (
     refusing,
 )
 
+IMPATIENT = pytest.mark.parametrize(
+    "timeouts", [aioros1.Timeouts(handshake=0.15, stall=0.15)], ids=["impatient"]
+)
+"""For tests of the timeouts; all others have time, however busy the machine is."""
+
 
 @pytest.fixture
-async def node(make_node):
-    """The caller's node, which is not patient."""
-    return await make_node(
-        "client", timeouts=aioros1.Timeouts(handshake=0.15, connect=0.3, stall=0.15)
-    )
+def timeouts() -> aioros1.Timeouts:
+    return aioros1.Timeouts()
+
+
+@pytest.fixture
+async def node(make_node, timeouts):
+    """The caller's node."""
+    return await make_node("client", timeouts=timeouts)
 
 
 @pytest.fixture
@@ -313,6 +321,7 @@ async def test_V10_trap_19_an_answer_of_absurd_length_is_an_error(
     assert await bystander.is_served()
 
 
+@IMPATIENT
 async def test_V10_an_answer_that_stops_in_the_middle_is_given_up(fake, any_caller, bystander):
     call = any_caller.send_request(data=True, timeout=None)
     wire = await fake.called()
@@ -342,6 +351,7 @@ async def test_bytes_behind_the_response_are_ignored(fake, any_caller):
     assert (await call).message == "hi"
 
 
+@IMPATIENT
 async def test_a_provider_that_never_sends_a_header_is_given_up(fake, any_caller, bystander):
     call = any_caller.send_request(data=True)
     wire = await fake.greeted()
@@ -362,6 +372,7 @@ async def test_a_provider_that_closes_instead_of_a_header_is_unavailable(fake, a
     assert await answered(fake, any_caller)
 
 
+@IMPATIENT
 async def test_a_provider_that_takes_nothing_is_given_up(node, make_provider, bystander):
     fake = await make_provider("/level")
     large = "x" * 20_000_000

@@ -28,12 +28,21 @@ from .peers import (
 PERSISTENT = {"persistent": "1"}
 
 
+IMPATIENT = pytest.mark.parametrize(
+    "timeouts", [aioros1.Timeouts(handshake=0.15, close=0.2)], ids=["impatient"]
+)
+"""For tests of the timeouts; all others have time, however busy the machine is."""
+
+
 @pytest.fixture
-async def node(make_node):
-    """The provider's node, which is not patient."""
-    return await make_node(
-        "server", timeouts=aioros1.Timeouts(handshake=0.15, close=0.2, stall=0.3)
-    )
+def timeouts() -> aioros1.Timeouts:
+    return aioros1.Timeouts()
+
+
+@pytest.fixture
+async def node(make_node, timeouts):
+    """The provider's node."""
+    return await make_node("server", timeouts=timeouts)
 
 
 @pytest.fixture
@@ -126,6 +135,7 @@ async def test_V6_a_persistent_connection_serves_many_calls(node, flip, value):
     assert flip.stats.messages == 6
 
 
+@IMPATIENT
 async def test_V6_an_idle_persistent_connection_is_kept(node, flip):
     async with dialled(node, caller_header(**PERSISTENT)) as wire:
         await wire.read_header()
@@ -175,6 +185,7 @@ async def test_V10_an_absurd_length_is_refused_at_once(node, flip, bystander, pe
     assert await bystander.is_served()
 
 
+@IMPATIENT
 @pytest.mark.parametrize(("persistent", "came"), [("0", 0), ("1", 100_000)])
 async def test_V10_a_request_that_does_not_come_is_given_up(
     node, flip, bystander, persistent, came
@@ -190,6 +201,7 @@ async def test_V10_a_request_that_does_not_come_is_given_up(
     assert await bystander.is_served()
 
 
+@IMPATIENT
 async def test_V10_a_caller_that_connects_for_one_call_and_makes_none_is_given_up(node, flip):
     async with dialled(node, caller_header()) as wire:
         await wire.read_header()
@@ -373,6 +385,7 @@ async def test_closing_a_provider_lets_a_call_be_answered_and_ends_idle_connecti
         await closing
 
 
+@IMPATIENT
 async def test_closing_a_provider_does_not_wait_for_ever_for_a_handler(node):
     started = asyncio.Event()
 

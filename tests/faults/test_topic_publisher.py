@@ -26,11 +26,21 @@ from .peers import (
     until,
 )
 
+IMPATIENT = pytest.mark.parametrize(
+    "timeouts", [aioros1.Timeouts(handshake=0.15)], ids=["impatient"]
+)
+"""For tests of the timeouts; all others have time, however busy the machine is."""
+
 
 @pytest.fixture
-async def node(make_node):
-    """The publisher's node, which is not patient."""
-    return await make_node("talker", timeouts=aioros1.Timeouts(handshake=0.15, close=0.3))
+def timeouts() -> aioros1.Timeouts:
+    return aioros1.Timeouts()
+
+
+@pytest.fixture
+async def node(make_node, timeouts):
+    """The publisher's node."""
+    return await make_node("talker", timeouts=timeouts)
 
 
 @pytest.fixture
@@ -188,6 +198,7 @@ async def test_T17_half_open_connection_blocks_nobody(make_node, bystander_of, s
             assert await hears(wire, pub, "hi")
 
 
+@IMPATIENT
 @half_open
 async def test_T17_half_open_connection_is_closed_after_the_timeout(node, pub, bystander, said):
     async with dialled(node, said) as wire:
@@ -196,6 +207,7 @@ async def test_T17_half_open_connection_is_closed_after_the_timeout(node, pub, b
     assert await bystander.is_served()
 
 
+@IMPATIENT
 async def test_T17_a_header_that_trickles_has_no_more_time(node, pub):
     async with dialled(node) as wire:
 
@@ -305,6 +317,7 @@ async def test_T22_small_messages_are_never_held_back(node, pub, asked):
             assert sock.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
 
 
+@IMPATIENT
 @pytest.mark.parametrize(
     "noise",
     [

@@ -25,12 +25,21 @@ def quick(monkeypatch):
     monkeypatch.setattr(subscription, "_GRACE", 0.1)
 
 
+IMPATIENT = pytest.mark.parametrize(
+    "timeouts", [aioros1.Timeouts(handshake=0.2, xmlrpc=0.2)], ids=["impatient"]
+)
+"""For tests of the timeouts; all others have time, however busy the machine is."""
+
+
 @pytest.fixture
-async def node(make_node):
-    """The subscriber's node, which is not patient."""
-    return await make_node(
-        "listener", timeouts=aioros1.Timeouts(handshake=0.15, xmlrpc=0.2, connect=0.3)
-    )
+def timeouts() -> aioros1.Timeouts:
+    return aioros1.Timeouts()
+
+
+@pytest.fixture
+async def node(make_node, timeouts):
+    """The subscriber's node."""
+    return await make_node("listener", timeouts=timeouts)
 
 
 @pytest.fixture
@@ -113,6 +122,7 @@ async def test_a_reply_that_is_no_header_is_refused(fake, sub, bystander, noise)
     assert await recovers(fake, sub)
 
 
+@IMPATIENT
 async def test_a_publisher_that_never_replies_is_given_up_and_tried_again(fake, sub, bystander):
     wire = await fake.greeted()
     assert await bystander.is_served()
@@ -338,6 +348,7 @@ async def test_U12_an_announcement_ends_the_waiting_at_once(fake, node, monkeypa
         assert await recovers(fake, sub)
 
 
+@IMPATIENT
 async def test_U13_a_publisher_that_hangs_in_request_topic_holds_up_nobody(
     node, fake, make_publisher, bystander
 ):

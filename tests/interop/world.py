@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import itertools
 import json
+import random
 import socket
 import xmlrpc.client
 from collections.abc import Callable
@@ -26,10 +28,16 @@ _numbers = itertools.count(1)
 
 
 def free_port() -> int:
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        port: int = listener.getsockname()[1]
-        return port
+    """A port nobody listens on, for a program that cannot be told to take any.
+
+    Not one that the system hands out for port 0, which somebody else could be given
+    before the program has started.
+    """
+    while True:
+        port = random.randrange(10_000, 30_000)
+        with socket.socket() as probe, contextlib.suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
 
 
 def xmlrpc_call(uri: str, method: str, *args: Any) -> Any:

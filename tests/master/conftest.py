@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
+import random
 import shutil
 import signal
 import socket
@@ -101,14 +102,21 @@ async def ask(master: Master) -> AsyncIterator[Callable[..., Awaitable[Any]]]:
     await client.close()
 
 
+def free_port() -> int:
+    """A port nobody listens on, and that the system gives to nobody who asks for any."""
+    while True:
+        port = random.randrange(10_000, 30_000)
+        with socket.socket() as probe, contextlib.suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
+
+
 @pytest.fixture
 async def rosmaster(tmp_path: Path) -> AsyncIterator[str]:
     """The URI of a real master, with nothing in it."""
     if ROSMASTER is None:
         pytest.skip("needs the Debian package python3-rosmaster")
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    port = free_port()
     environ = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "PYTHON"))}
     environ |= {
         "ROS_MASTER_URI": f"http://localhost:{port}",
