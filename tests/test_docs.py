@@ -141,7 +141,7 @@ async def test_programs_run(block, master):
 
 def test_commands_of_the_readme_set_everything_up():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    for heading, last in (("Quick start", "examples/demo.py"), ("Tests", "-m pytest")):
+    for heading, last in (("Quick start", "examples/demo.py"), ("Tests", "-m pytest -n 4")):
         section = text.split(f"\n## {heading}\n")[1]
         command = section.split("```sh\n")[1].split("```")[0]
         assert command.startswith("python3 -m venv .venv && .venv/bin/pip install ")

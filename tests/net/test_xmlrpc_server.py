@@ -253,6 +253,7 @@ async def test_H10_gzip() -> None:
         (b"no gzip", "gzip", 400),
         (PING, "br", 415),
     ],
+    ids=["too large inside", "cut short", "no gzip", "another coding"],
 )
 async def test_H10_gzip_that_is_refused(body: bytes, coding: str, expected: int) -> None:
     async with serving(xmlrpc_bytes=100_000) as server, connected(server) as peer:
