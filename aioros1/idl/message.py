@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import struct
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, NoReturn, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar
 
 from aioros1.errors import SerializationError
 from aioros1.idl.spec import Constant, Field, MessageSpec
@@ -91,6 +91,10 @@ class Message(metaclass=MessageType):
     _decode_exact: ClassVar[Callable[[bytes, int, int], Any]]
 
     __hash__ = None  # type: ignore[assignment]
+
+    if TYPE_CHECKING:
+        # The fields, for checkers that know no more than that it is some message.
+        def __getattr__(self, name: str) -> Any: ...
 
     # A stand-in for the generated constructor, so that checkers know of one.
     def __init__(self, *args: Any, **fields: Any) -> None:

@@ -164,13 +164,8 @@ async def test_U4_U10_a_publisher_that_fails_again_and_again_is_asked_less_and_l
         wire = await fake.subscribed()
         await wire.send(wrong)
         await wire.close()
-    first, *_, last = [
-        later - earlier
-        for earlier, later in zip(fake.dial_times, fake.dial_times[1:], strict=False)
-    ]
     # Five delays that double, beginning with 0.01 s; half of each is certain.
-    assert last >= 0.08
-    assert first < last
+    assert fake.dial_times[-1] - fake.dial_times[-2] >= 0.08
     # And the log is not filled with it.
     assert len(warnings_of(caplog)) <= 2
 
