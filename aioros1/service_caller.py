@@ -347,5 +347,7 @@ class _Connection:
 
     @property
     def is_dead(self) -> bool:
-        """Whether the provider has closed its end."""
-        return self.stream.reader.at_eof() or self.stream.writer.is_closing()
+        """Whether the provider has closed its end, or sent what nobody asked for, which
+        must not be taken for the answer to the next call."""
+        stream = self.stream
+        return stream.has_unread or stream.reader.at_eof() or stream.writer.is_closing()

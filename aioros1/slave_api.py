@@ -136,12 +136,14 @@ class SlaveApi:
         publication = self._node._roles.publications.get(canonicalize(topic))
         if publication is None or not publication.publishers:
             return [-1, f"{self._node.name} does not publish {topic}", []]
-        for protocol in protocols:
-            # Others are passed over, whatever they look like: what asks for them may
-            # well understand this one too.
-            if isinstance(protocol, list) and protocol[:1] == ["TCPROS"]:
-                host, port = self._node.tcpros_address
-                return [1, "ready", ["TCPROS", host, port]]
+        # Others are passed over, whatever they look like: who asks for them may well
+        # understand this one too.
+        readable = [each for each in protocols if _is_protocol(each)]
+        if any(protocol[0] == "TCPROS" for protocol in readable):
+            host, port = self._node.tcpros_address
+            return [1, "ready", ["TCPROS", host, port]]
+        if len(readable) < len(protocols):
+            return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
         return [0, "no protocol in common: this node speaks TCPROS", []]
 
 
@@ -159,6 +161,10 @@ def _bus_info(info: ConnectionInfo) -> list[Any]:
 
 def _wrong(parameter: str, value: object, expected: str) -> Triple:
     return [-1, f"{parameter} must be {expected}, got {value!r:.100}", 0]
+
+
+def _is_protocol(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and isinstance(value[0], str)
 
 
 def _is_http_uri(value: object) -> bool:

@@ -136,7 +136,10 @@ class Subscriber(Role, Generic[M]):
 
     @property
     def latest(self) -> M | None:
-        """The newest message received, taken from the queue or not; None before the first."""
+        """The newest message received, taken from the queue or not; None before the first.
+
+        Raises :class:`~aioros1.DeserializationError` if that cannot be decoded.
+        """
         if self._newest is None:
             return None
         message: M = self._decode(self._newest)

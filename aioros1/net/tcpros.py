@@ -78,7 +78,7 @@ class Stream:
             ) from error
 
     async def read_exactly(self, count: int, *, patience: float | None) -> bytes:
-        """``count`` bytes; ``patience`` is how many seconds may pass without any.
+        """``count`` bytes, with ``patience`` seconds for each piece of 64 KiB.
 
         The memory used grows with the bytes that came. Raises
         :class:`asyncio.IncompleteReadError` when the other side closes,
@@ -113,6 +113,12 @@ class Stream:
             except TimeoutError:
                 if transport.get_write_buffer_size() >= left:
                     raise TimeoutError(f"{self.peer} took nothing for {stall} s") from None
+
+    @property
+    def has_unread(self) -> bool:
+        """Whether bytes have come that nobody has read."""
+        # A StreamReader has no public way to ask; reading without waiting needs the same.
+        return bool(self.reader._buffer)  # type: ignore[attr-defined]
 
     def stop_reading(self) -> None:
         """Make whoever reads see the end, as if the other side had closed."""
