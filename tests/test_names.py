@@ -1,5 +1,4 @@
 """Names: resolved, remapped and refused."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

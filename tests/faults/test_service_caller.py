@@ -1,5 +1,4 @@
 """Providers that misbehave, at a real caller."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """Callers that misbehave, at a real provider (rows V1 to V14 of the protocol notes)."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """The slave API, asked rightly and wrongly (rows S1 to S13 of the protocol notes)."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """Subscribers that misbehave, at a real publisher (rows T1 to T22 of the protocol notes)."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

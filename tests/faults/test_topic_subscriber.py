@@ -1,5 +1,4 @@
 """Publishers that misbehave, at a real subscriber (rows U1 to U15 of the protocol notes)."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

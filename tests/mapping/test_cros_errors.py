@@ -1,7 +1,5 @@
 """Error codes: the exceptions that take their place, where they come from, what they say."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import asyncio

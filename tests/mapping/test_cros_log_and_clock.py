@@ -1,7 +1,5 @@
 """Logging, and the time."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import io

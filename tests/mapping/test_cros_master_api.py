@@ -1,7 +1,5 @@
 """Asking the master: cRosApiLookupNode and the like, their callbacks and results."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import asyncio

@@ -1,7 +1,5 @@
 """Definitions loaded at run time, and messages: fields, arrays, copies, octets."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import copy

@@ -1,7 +1,5 @@
 """The life of a node: cRosNodeCreate to cRosNodeDestroy, and what CrosNode holds."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import asyncio

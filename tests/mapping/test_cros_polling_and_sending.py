@@ -1,7 +1,5 @@
 """Receiving when one wants to, sending at once, calling at once."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import asyncio

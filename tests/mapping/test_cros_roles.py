@@ -1,7 +1,5 @@
 """Registering, unregistering and releasing roles, their callbacks and their structs."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import asyncio

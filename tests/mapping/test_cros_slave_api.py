@@ -1,7 +1,5 @@
 """Asking other nodes, and being asked: the slave API from both sides."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import asyncio

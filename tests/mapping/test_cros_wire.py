@@ -1,7 +1,5 @@
 """What cROS parses and prepares by hand, seen from a socket that shares no code with us."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import pytest

@@ -1,7 +1,5 @@
 """XmlrpcParam and what belongs to it: plain values of Python."""
 
-# ruff: noqa: N802 - a test carries the name of what it stands for
-
 from __future__ import annotations
 
 import asyncio

@@ -1,5 +1,4 @@
 """A master as its users see it: over HTTP, and as an object."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """Who is told what, in which order, and that nobody waits for a node that hangs."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

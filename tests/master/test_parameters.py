@@ -1,5 +1,4 @@
 """The tree of parameters and its followers, without a server."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """The registry without a server: what is answered, and who is told."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """The client against our server, and against servers that misbehave."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

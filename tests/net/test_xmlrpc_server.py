@@ -1,5 +1,4 @@
 """The HTTP layer of masters and nodes (H1 to H11), and how methods are called."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """How a stream of bytes is cut into frames, without a socket."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

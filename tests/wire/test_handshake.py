@@ -1,5 +1,4 @@
 """Who says what before messages flow: all four sides, without a socket."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

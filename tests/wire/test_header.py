@@ -1,5 +1,4 @@
 """Connection headers, byte by byte (rows T8 to T16 of the protocol notes)."""
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 
 from __future__ import annotations
 

@@ -42,6 +42,6 @@ def test_a_length_within_the_limit(length):
 
 
 @pytest.mark.parametrize("length", [1025, 900_000_000, 0xFFFF_FFFF])
-def test_V10_a_length_beyond_the_limit_is_refused(length):  # noqa: N802
+def test_V10_a_length_beyond_the_limit_is_refused(length):
     with pytest.raises(ServiceFrameError, match=f"a frame of {length} bytes, more than 1024"):
         frame_length(struct.pack("<I", length), 1024)

@@ -1,6 +1,5 @@
 """XML-RPC documents; the rows are those of the protocol table (X1 to X21)."""
 
-# ruff: noqa: N802 - rows of the table are in the names of the tests
 from __future__ import annotations
 
 import enum
