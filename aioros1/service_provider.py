@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1.errors import (
+    ClosedError,
     DeserializationError,
     SerializationError,
     ServiceError,
@@ -52,7 +53,7 @@ class ServiceProviderOptions:
 class ServiceCall(Generic[Q, A]):
     """A call that waits for its answer; an item of ``async for call in provider``."""
 
-    __slots__ = ("_answer", "header", "request", "response_class")
+    __slots__ = ("_answer", "_closed", "header", "request", "response_class")
 
     def __init__(
         self, request: Q, header: Mapping[str, str], response_class: type[Message]
@@ -62,6 +63,7 @@ class ServiceCall(Generic[Q, A]):
         """The caller's connection header; ``header["callerid"]`` is its name."""
         self.response_class = response_class
         self._answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+        self._closed: ClosedError | None = None
 
     @property
     def caller_id(self) -> str:
@@ -72,7 +74,9 @@ class ServiceCall(Generic[Q, A]):
         """Answer with a response, a dict of its fields, or its ``fields``.
 
         Raises :class:`~aioros1.SerializationError` for values that do not fit; the call
-        then still waits. A call whose caller is gone is answered like any other.
+        then still waits. Raises :class:`~aioros1.ClosedError` once the provider is closed,
+        which has answered for it, and :class:`RuntimeError` for a second answer. A call
+        whose caller is gone is answered like any other.
         """
         message = message_from(self.response_class, response, fields)
         self._settle(self.response_class._frame(message))
@@ -83,8 +87,14 @@ class ServiceCall(Generic[Q, A]):
 
     def _settle(self, answer: object) -> None:
         if self._answer.done():
-            raise RuntimeError("the call is answered already")
+            raise self._closed or RuntimeError("the call is answered already")
         self._answer.set_result(answer)
+
+    def _close(self, error: ClosedError) -> None:
+        """The provider will not wait for an answer."""
+        if not self._answer.done():
+            self._closed = error
+            self._answer.set_result(ServiceError("the service is shut down"))
 
 
 class ServiceProvider(Role, Generic[Q, A]):
@@ -253,7 +263,7 @@ class ServiceProvider(Role, Generic[Q, A]):
 
     async def _deferred(self, request: Any, header: Mapping[str, str]) -> bytes:
         if not self._is_open:
-            raise ServiceError(f"service {self.name} is shut down")
+            raise ServiceError("the service is shut down")
         call: ServiceCall[Q, A] = ServiceCall(request, header, self.service_class.Response)
         self._calls.append(call)
         self._unanswered.add(call)
@@ -290,8 +300,7 @@ class ServiceProvider(Role, Generic[Q, A]):
         self._calls.clear()
         self._arrived.wake()
         for call in self._unanswered:
-            if not call._answer.done():
-                call._settle(ServiceError(f"service {self.name} is shut down"))
+            call._close(self._closed_error())
         await self._node._roles.close_provider(self)
 
     async def close_connections(self, timeout: float) -> None:
