@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator, Callable, Iterator
+import os
+from collections.abc import AsyncIterator, Callable, Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,18 @@ def pytest_asyncio_loop_factories(
     if INTEROP in item.path.parents:
         return {"asyncio": LOOPS["asyncio"]}
     return LOOPS
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item, call: pytest.CallInfo[None]
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Where everything has to be installed, a test that is skipped for lack of it fails."""
+    report = yield
+    required = os.environ.get("AIOROS1_REQUIRE_INTEROP") == "1"
+    if required and report.skipped and item.get_closest_marker("interop"):
+        report.outcome = "failed"
+    return report
 
 
 @pytest.fixture(autouse=True)
