@@ -81,4 +81,4 @@ async def test_what_is_missing_skips_or_fails(
     monkeypatch.setenv("AIOROS1_REQUIRE_INTEROP", "1" if required else "")
     outcome = pytest.fail.Exception if required else pytest.skip.Exception
     with pytest.raises(outcome, match=r"nothing.h is not installed: apt-get install ros-core"):
-        debian.require("rosmaster", "/usr/include/nothing.h")
+        debian.require("/usr/include/nothing.h")
