@@ -10,13 +10,21 @@ from aioros1.idl import Message, convert, from_dict
 __all__ = ["message_from"]
 
 
-def message_from(cls: type[Message], message: Any, fields: Mapping[str, Any]) -> Any:
+def message_from(
+    cls: type[Message], message: Any, fields: Mapping[str, Any], keyword: str = ""
+) -> Any:
     """The message that ``publish(message)`` or ``publish(**fields)`` means.
+
+    ``keyword`` is the name by which the message itself may be given, where the type has
+    no field of that name, as rosgraph_msgs/Log has its ``msg``.
 
     The result is a ``cls`` or, for a message of another class with the same
     definition, that message itself. Raises :class:`TypeError` for both at once and for
     unknown fields, :class:`~aioros1.SerializationError` for a message of another type.
     """
+    if message is None and keyword in fields and keyword not in cls.__slots__:
+        message = fields[keyword]
+        fields = {name: value for name, value in fields.items() if name != keyword}
     if message is None:
         if any(map(_holds_dicts, fields.values())):
             return from_dict(cls, fields)

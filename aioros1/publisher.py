@@ -192,7 +192,7 @@ class Publisher(Role, Generic[M]):
     def _encode(self, msg: Any, fields: dict[str, Any]) -> Frame:
         cls = self.message_class
         if type(msg) is not cls or fields:
-            msg = message_from(cls, msg, fields)
+            msg = message_from(cls, msg, fields, "msg")
         if cls._has_header:
             self._seq = (self._seq + 1) & 0xFFFFFFFF
             with contextlib.suppress(AttributeError):  # no header: told by what encodes it

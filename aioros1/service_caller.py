@@ -134,7 +134,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         is never taken for another call's.
         """
         self._check_open()
-        message = message_from(self.service_class.Request, request, fields)
+        message = message_from(self.service_class.Request, request, fields, "request")
         frame = self.service_class.Request._frame(message)
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
         try:

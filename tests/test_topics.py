@@ -46,3 +46,21 @@ async def test_closed_roles_raise_closed_error(make_node):
     await pub.close()
     with pytest.raises(aioros1.ClosedError):
         pub.publish(data="late")
+
+
+async def test_a_message_may_be_given_by_keyword_unless_that_is_a_field(make_node):
+    node = await make_node()
+    async with (
+        node.advertise("chatter", String) as pub,
+        node.subscribe("chatter") as sub,
+        node.advertise("log", "rosgraph_msgs/Log") as log,
+        node.subscribe("log") as logged,
+    ):
+        await pub.wait_for_subscribers(timeout=5)
+        await log.wait_for_subscribers(timeout=5)
+        pub.publish(msg=String(data="whole"))
+        assert (await sub.get(timeout=5)).data == "whole"
+        log.publish(msg="a field")
+        assert (await logged.get(timeout=5)).msg == "a field"
+        with pytest.raises(TypeError, match="a message or fields, got both"):
+            pub.publish(String(), data="x")
