@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from blockbuster import blockbuster_ctx
 
 import aioros1
 
@@ -21,6 +22,7 @@ except ImportError:  # it is not made for every system
 else:
     LOOPS["uvloop"] = uvloop.new_event_loop
 
+PATH_FUNCTIONS = {"crawled", "directories", "find", "packages", "types"}
 INTEROP = Path(__file__).parent / "interop"
 
 
@@ -63,6 +65,22 @@ def no_task_left(request: pytest.FixtureRequest) -> Iterator[None]:
     yield
     left = asyncio.all_tasks(runner.get_loop())
     assert not left, f"tasks left behind: {left}"
+
+
+@pytest.fixture(autouse=True)
+def nothing_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
+    """The library makes no blocking call in the event loop, but to read definitions.
+
+    Each definition is read once, from a local disk, and is small.
+    """
+    if not request.node.get_closest_marker("asyncio"):
+        yield
+        return
+    with blockbuster_ctx("aioros1") as blockbuster:
+        for function in blockbuster.functions.values():
+            function.can_block_in("aioros1/idl/store.py", {"_source"})
+            function.can_block_in("aioros1/idl/paths.py", PATH_FUNCTIONS)
+        yield
 
 
 @pytest.fixture
