@@ -12,9 +12,9 @@ what no master accepts: nothing at all, ``/`` itself, a blank, a colon.
 from __future__ import annotations
 
 import os
+import platform
 import random
 import re
-import socket
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
@@ -176,7 +176,7 @@ def resolve_from(name: str, caller_id: str) -> str:
 
 def anonymous_name(base: str) -> str:
     """A name nobody else has: ``base``, the host, the process and a random number."""
-    host = re.sub(r"[^0-9A-Za-z]", "_", socket.gethostname())
+    host = re.sub(r"[^0-9A-Za-z]", "_", platform.node())
     return f"{validate_base_name(base)}_{host}_{os.getpid()}_{random.getrandbits(48)}"
 
 
