@@ -229,11 +229,16 @@ class _Follower:
         finally:
             # Not for having connected alone: a publisher that accepts and then fails
             # would be asked ten times a second for ever.
-            if link.info.stats.messages or loop.time() - begin > backoff.longest:
+            lasted = loop.time() - begin > backoff.longest
+            if link.info.stats.messages or lasted:
                 backoff.reset()
+            if lasted:
+                self._complaint = ""
             link.abort()
             self._link = None
             subscription.link_closed(link)
+        if link.failure is not None:
+            self._complain(link.failure)
 
     async def _request_topic(self) -> tuple[str, int]:
         node = self._node
@@ -271,8 +276,6 @@ class _Follower:
             link.has_progressed()  # from now on
             if not await self._stirred(_GRACE) and not link.has_progressed():
                 break
-        if link.failure is not None:
-            self._complain(link.failure)
 
     async def _stirred(self, timeout: float | None) -> bool:
         """Wait until the master or the connection has news, at most ``timeout`` seconds;
@@ -286,7 +289,7 @@ class _Follower:
         return True
 
     def _complain(self, text: str) -> None:
-        """Log what went wrong, once until it is something else or has gone well."""
+        """Log what went wrong, once until it is something else or went well for a while."""
         if text != self._complaint:
             self._complaint = text
             self._node.log.warning(
