@@ -38,7 +38,7 @@ async def last(request: web.Request) -> web.Response:
     message = request.app[SUBSCRIBER].latest
     if message is None:
         raise web.HTTPNotFound(text="nothing was said yet")
-    return web.json_response(message.to_dict())
+    return web.json_response(message.to_dict(json=True))
 
 
 async def publish(request: web.Request) -> web.Response:
@@ -68,7 +68,7 @@ async def stream(request: web.Request) -> web.WebSocketResponse:
 
 async def forward(sub: aioros1.Subscriber, socket: web.WebSocketResponse) -> None:
     async for message in sub:
-        await socket.send_json(message.to_dict())
+        await socket.send_json(message.to_dict(json=True))
 
 
 async def close_sockets(app: web.Application) -> None:

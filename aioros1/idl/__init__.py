@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from aioros1.idl.convert import convert, from_dict, to_dict
 from aioros1.idl.digest import full_text, md5_text, md5sum
-from aioros1.idl.message import Message
+from aioros1.idl.message import AnyMessage, Message
 from aioros1.idl.parser import parse_action, parse_message, parse_service
 from aioros1.idl.service import Action, Service
 from aioros1.idl.spec import ActionSpec, Constant, Field, MessageSpec, ServiceSpec
@@ -16,6 +16,7 @@ from aioros1.idl.store import MessageStore, default_store, load_action, load_msg
 __all__ = [
     "Action",
     "ActionSpec",
+    "AnyMessage",
     "Constant",
     "Field",
     "Message",

@@ -27,6 +27,7 @@ from __future__ import annotations
 import struct
 from array import array
 from collections.abc import Callable
+from functools import partial
 from keyword import iskeyword
 from typing import TYPE_CHECKING, Any
 
@@ -58,7 +59,6 @@ class Source:
             "Time": Time,
             "array": array,
             "join": b"".join,
-            "new": object.__new__,
             "struct_error": struct.error,
         }
         self._bound: dict[Any, str] = {}
@@ -78,6 +78,13 @@ class Source:
             self._bound[key] = name = self.fresh(prefix)
             self.globals[name] = value
         return self._bound[key]
+
+    def new(self, cls: type) -> str:
+        """The expression for an instance of a class that is made without its constructor.
+
+        A partial object is quicker than the same call written out, by a tenth to a fifth.
+        """
+        return self.bind("new", partial(object.__new__, cls), ("new", cls)) + "()"
 
     def use(self, name: str) -> str:
         """The name of a function of :mod:`.values`."""
@@ -315,7 +322,10 @@ def encoder_source(
     encoder.message(cls, "m0")
     encoder.flush()
     if frame:
-        out.line(f"total = {' + '.join([str(encoder.constant - 4), *encoder.sizes])}")
+        # Not a chain of additions, which the compiler takes for as many levels.
+        sizes = encoder.sizes
+        total = " + ".join(sizes) if len(sizes) <= 50 else f"sum(({', '.join(sizes)}))"
+        out.line(f"total = {encoder.constant - 4}" + (f" + {total}" if total else ""))
     if split:
         out.line(f"return {out.use('collect')}(({''.join(f'{part}, ' for part in encoder.parts)}))")
     elif not encoder.parts:

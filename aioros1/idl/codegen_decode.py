@@ -4,37 +4,43 @@
 
     def decode(data, pos, end):
         try:
-            m1 = new(C2)
-            m1.header = m3 = new(C4)
-            m3.stamp = t5 = new(Time)
-            m3.seq, t5._secs, t5._nsecs, n6 = u7(data, pos)
-            i8 = pos + 16
-            j9 = i8 + n6
-            m3.frame_id = data[i8:j9].decode()
-            if j9 > end: raise ValueError
+            m1 = new2()
+            m3 = new4()
+            m1.header = m3
+            t5 = new6()
+            m3.stamp = t5
+            m3.seq, t5._secs, t5._nsecs, n7 = u8(data, pos)
+            i9 = pos + 16
+            j10 = i9 + n7
+            if j10 > end: raise ValueError
+            m3.frame_id = data[i9:j10].decode()
             return m1
         except UnicodeDecodeError: ...
 
-One comparison at the end bounds everything: reading on past ``end`` meets only memory
-that is there (slices stop at its end, struct raises), and makes nothing larger than it.
-Only what is made in proportion to a *count* is checked before.
+Reading on past ``end`` meets only memory that is there (slices stop at its end, struct
+raises), so one comparison at the end would do. But behind ``end`` there may be many other
+messages, and a peer could have them copied for each of its own: so each length is compared
+before it is believed, unless the message is alone in ``data``.
+
+:mod:`.codegen_learned` has a quicker way for what came in the same layout before, and
+:mod:`.decoders` makes functions of both.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.codegen import Source
 from aioros1.idl.spec import Field
+from aioros1.time import Duration, Time
 
 if TYPE_CHECKING:
     from aioros1.idl.message import Message
 
-__all__ = ["MAX_EMPTY", "Mode", "decoder_source", "make_decoder"]
+__all__ = ["MAX_EMPTY", "Decoder", "Mode", "write_decoder"]
 
 MAX_EMPTY = 65536
 """Messages without any octets that one message may hold in its arrays. Their number is
@@ -45,18 +51,23 @@ Mode: TypeAlias = Literal["bytes", "escape", "view", "views"]
 same for text that is not UTF-8; ``view`` for a memoryview, copied; ``views`` not copied."""
 
 
-class _Decoder:
+class Decoder:
     """Walks a class and writes the body of its decoder.
 
     The next octet to read is at ``base`` (a local variable) plus the size of the run;
     ``codes`` and ``targets`` are the run at hand, ``after`` what waits for its values.
     """
 
-    def __init__(self, out: Source, mode: Mode, base: str, row: str | None = None) -> None:
+    def __init__(
+        self, out: Source, mode: Mode, base: str, *, alone: bool, row: str | None = None
+    ) -> None:
         self.out = out
         self.mode: Mode = mode
         self.base = base
+        self.alone = alone  # whether `data` ends at `end`
+        self.bounded = ""  # the base that was compared with the end
         self.row = row  # an unpacked row to take the run from, in place of `data`
+        self.deferred = row is not None  # whether all values come before they are used
         self.codes: list[str] = []
         self.targets: list[str] = []
         self.after: list[str] = []
@@ -82,13 +93,19 @@ class _Decoder:
         for line in self.after:
             self.out.line(line)
         if packer.size and self.row is None:
-            self.base = self.local("i", f"{self.base} + {packer.size}")
+            self.base = self.behind(packer.size)
         self.codes, self.targets, self.after = [], [], []
 
     def local(self, prefix: str, value: str) -> str:
         name = self.out.fresh(prefix)
         self.out.line(f"{name} = {value}")
         return name
+
+    def behind(self, size: int) -> str:
+        """The place so many octets behind ``base``."""
+        if self.base.isdecimal():
+            return str(int(self.base) + size)
+        return self.local("i", f"{self.base} + {size}")
 
     def count(self) -> str:
         """Read a length; it ends the run."""
@@ -113,9 +130,9 @@ class _Decoder:
         self.after.append(f"setattr({owner}, {field.name!r}, {name})")
         return name
 
-    def create(self, owner: str, field: Field, prefix: str, class_: str) -> str:
+    def create(self, owner: str, field: Field, prefix: str, cls: type) -> str:
         """Make an object and put it in its field, before what it holds is known."""
-        name = self.local(prefix, f"new({class_})")
+        name = self.local(prefix, self.out.new(cls))
         self.store(owner, field, name)
         return name
 
@@ -129,7 +146,7 @@ class _Decoder:
                 self.scalar(field, owner)
             else:
                 nested = cls._nested[field.base_type]
-                name = self.create(owner, field, "m", self.out.bind("C", nested, nested))
+                name = self.create(owner, field, "m", nested)
                 self.message(nested, name)
 
     def scalar(self, field: Field, owner: str) -> None:
@@ -140,7 +157,7 @@ class _Decoder:
             start, stop = self.extent(1)
             self.store(owner, field, self.text(start, stop))
         else:
-            name = self.create(owner, field, "t", builtin.kind.capitalize())
+            name = self.create(owner, field, "t", Time if builtin.kind == "time" else Duration)
             self.take(builtin.code, f"{name}._secs", f"{name}._nsecs")
 
     def extent(self, item_size: int) -> tuple[str, str]:
@@ -149,6 +166,9 @@ class _Decoder:
         start = self.base
         times = count if item_size == 1 else f"{item_size} * {count}"
         self.base = self.local("j", f"{start} + {times}")
+        if not self.alone:
+            self.out.line(f"if {self.base} > end: raise ValueError")
+            self.bounded = self.base
         return start, self.base
 
     def text(self, start: str, stop: str) -> str:
@@ -193,7 +213,6 @@ class _Decoder:
                 self.store(owner, field, self.numbers(builtin.code, f"data[{start}:{stop}]"))
         else:
             start, stop = self.extent(builtin.size)
-            self.out.line(f"if {stop} > end: raise ValueError")
             self.store(owner, field, self.listed(builtin.kind, f"data[{start}:{stop}]"))
 
     def listed(self, kind: str, octets: str) -> str:
@@ -202,10 +221,9 @@ class _Decoder:
             return f"list(map(bool, {octets}))"
         raw = self.out.fresh("raw")
         codes = ["II"] if kind == "time" else ["ii"]
-        class_ = "Time" if kind == "time" else "Duration"
         key, packer = self.out.structure(codes)
         rows = self.out.bind("r", packer.iter_unpack, ("rows", key))
-        self.out.globals["raw_" + kind] = self.out.globals[class_]._raw
+        self.out.globals["raw_" + kind] = (Time if kind == "time" else Duration)._raw
         return f"[raw_{kind}(*{raw}) for {raw} in {rows}({octets})]"
 
     def fixed(self, field: Field, owner: str, length: int) -> None:
@@ -255,7 +273,7 @@ class _Decoder:
             reader = values.string_reader(self.mode == "escape")
             read = self.out.bind("strings", reader, object())
             items, position = self.out.fresh("l"), self.out.fresh("k")
-            self.out.line(f"{items}, {position} = {read}(data, {self.base}, {count})")
+            self.out.line(f"{items}, {position} = {read}(data, {self.base}, end, {count})")
             self.base = position
             self.store(owner, field, items)
             return
@@ -270,6 +288,7 @@ class _Decoder:
         self.out.line(f"{size}, = {unpack}(data, {position})")
         self.out.line(f"{start} = {position} + 4")
         self.out.line(f"{position} = {start} + {size}")
+        self.out.line(f"if {position} > end: raise ValueError")
         self.out.line(f"{items}.append({self.text(start, position)})")
         self.out.depth -= 1
         self.base = position
@@ -284,43 +303,41 @@ class _Decoder:
             self.out.line(f"if empty > {MAX_EMPTY}: raise ValueError")
 
     def messages(self, nested: type[Message], field: Field, owner: str) -> None:
-        class_ = self.out.bind("C", nested, nested)
         size = nested._fixed_size
         if size and self.row is not None:
             # Inside a row: the octets of these elements are one value of it.
             octets = self.out.fresh("x")
             assert field.array_len is not None
             self.take(f"{size * field.array_len}s", octets)
-            self.rows(nested, field, owner, octets, class_)
+            self.rows(nested, field, owner, octets)
         elif size:
             count = self.length(field)
             self.check_count(count, size)
             stop = self.local("j", f"{self.base} + {size} * {count}")
             octets = f"data[{self.base}:{stop}]"
             self.base = stop
-            self.rows(nested, field, owner, octets, class_)
+            self.rows(nested, field, owner, octets)
         elif size == 0:
             count = self.length(field) if self.row is None else str(field.array_len)
-            self.check_count(count, 0)
+            weight = nested._hollow + 1
+            self.check_count(count if weight == 1 else f"{weight} * {count}", 0)
             self.out.line("# nothing on the wire, and nothing in them that could differ")
             self.store(owner, field, f"[{self.empty(nested)} for _ in range({count})]")
         else:
-            self.varying(nested, field, owner, class_)
+            self.varying(nested, field, owner)
 
     def empty(self, nested: type[Message]) -> str:
         return f"{self.out.bind('C', nested, nested)}()"
 
-    def rows(
-        self, nested: type[Message], field: Field, owner: str, octets: str, class_: str
-    ) -> None:
+    def rows(self, nested: type[Message], field: Field, owner: str, octets: str) -> None:
         """Elements of one fixed size: unpacked row by row."""
         items = self.out.fresh("l")
         row = self.out.fresh("r")
         element = self.out.fresh("e")
-        inner = _Decoder(self.out, self.mode, "", row)
+        inner = Decoder(self.out, self.mode, "", alone=self.alone, row=row)
         mark = len(self.out.lines)
         self.out.depth += 1
-        self.out.line(f"{element} = new({class_})")
+        self.out.line(f"{element} = {self.out.new(nested)}")
         inner.message(nested, element)
         key, packer = self.out.structure(inner.codes)
         inner.flush()
@@ -336,7 +353,7 @@ class _Decoder:
         self, head: list[str], body: list[str], owner: str, field: Field, items: str
     ) -> None:
         pad = "    " * self.out.depth
-        if self.row is None:
+        if not self.deferred:
             for text in head:
                 self.out.line(text)
             self.out.lines += body
@@ -347,7 +364,7 @@ class _Decoder:
             self.after += [text.removeprefix(pad) for text in body]
             self.assign_after(owner, field, items)
 
-    def varying(self, nested: type[Message], field: Field, owner: str, class_: str) -> None:
+    def varying(self, nested: type[Message], field: Field, owner: str) -> None:
         """Elements of any size: one after the other."""
         count = self.length(field)
         self.check_count(count, nested._min_size)
@@ -356,8 +373,8 @@ class _Decoder:
         element = self.out.fresh("e")
         self.out.line(f"for _ in range({count}):")
         self.out.depth += 1
-        self.out.line(f"{element} = new({class_})")
-        inner = _Decoder(self.out, self.mode, position)
+        self.out.line(f"{element} = {self.out.new(nested)}")
+        inner = Decoder(self.out, self.mode, position, alone=self.alone)
         inner.message(nested, element)
         inner.flush()
         self.out.line(f"{position} = {inner.base}")
@@ -367,44 +384,21 @@ class _Decoder:
         self.store(owner, field, items)
 
 
-def decoder_source(cls: type[Message], mode: Mode, *, exact: bool = False) -> Source:
-    """The source of a decoder; ``exact`` refuses octets that are left over."""
-    out = Source("decode", "data, pos, end")
-    out.line("try:")
-    out.depth += 1
-    out.line("empty = 0")
-    mark = len(out.lines) - 1
-    decoder = _Decoder(out, mode, "pos")
-    root = decoder.local("m", f"new({out.bind('C', cls, cls)})")
+def write_decoder(out: Source, cls: type[Message], mode: Mode, base: str, *, exact: bool) -> str:
+    """Write the body of a decoder to ``out``; gives the name of what it has made.
+
+    ``base`` is where the message begins; ``exact`` is for one that is all there is in
+    ``data``, and refuses octets that are left over.
+    """
+    mark = len(out.lines)
+    decoder = Decoder(out, mode, base, alone=exact)
+    root = decoder.local("m", out.new(cls))
     decoder.message(cls, root)
     decoder.flush()
-    out.line(f"if {decoder.base} {'!=' if exact else '>'} end: raise ValueError")
-    out.line(f"return {root}")
-    out.depth -= 1
-    if not any("empty +=" in line for line in out.lines):
-        del out.lines[mark]
-    if mode == "bytes":
-        out.line("except UnicodeDecodeError:")
-        out.line("    return escaped(data, pos, end)")
-    out.line("except (struct_error, ValueError, TypeError, OverflowError):")
-    out.line("    raise explain(data, pos, end) from None")
-    return out
-
-
-def make_decoder(
-    cls: type[Message],
-    mode: Mode,
-    explain: Callable[[Any, int, int], Exception],
-    *,
-    exact: bool = False,
-    escaped: Callable[[Any, int, int], Any] | None = None,
-) -> Callable[[Any, int, int], Any]:
-    """Compile a decoder.
-
-    ``explain`` makes the exception when it fails; ``escaped`` takes over (in mode
-    ``bytes``) when a text is not UTF-8.
-    """
-    source = decoder_source(cls, mode, exact=exact)
-    source.globals["explain"] = explain
-    source.globals["escaped"] = escaped
-    return source.compile(cls._type)
+    if exact:
+        out.line(f"if {decoder.base} != end: raise ValueError")
+    elif decoder.bounded != decoder.base:
+        out.line(f"if {decoder.base} > end: raise ValueError")
+    if any("empty +=" in line for line in out.lines[mark:]):
+        out.lines.insert(mark, "    " * out.depth + "empty = 0")
+    return root

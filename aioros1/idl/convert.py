@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import re
+import struct
+import sys
 from array import array
-from collections.abc import Mapping
-from typing import Any, TypeVar
+from base64 import b64decode, b64encode
+from collections.abc import Mapping, Sequence
+from math import inf, isfinite, nan
+from typing import Any, NoReturn, TypeVar
 
 from aioros1.errors import SerializationError
 from aioros1.idl import values
-from aioros1.idl.builtin_types import BUILTINS
+from aioros1.idl.builtin_types import BUILTINS, Builtin
 from aioros1.idl.check import describe
 from aioros1.idl.message import Message
 from aioros1.idl.spec import Field
@@ -45,34 +50,89 @@ def convert(cls: type[_M], value: Any) -> Any:
     raise SerializationError(f"expected a {cls._type}, got {what}")
 
 
-# -- dicts ---------------------------------------------------------------------------
+# -- to dicts ------------------------------------------------------------------------
 
 
-def to_dict(message: Any) -> dict[str, Any]:
+def to_dict(message: Any, *, json: bool = False) -> dict[str, Any]:
     """:meth:`Message.to_dict`, for genpy's messages too."""
-    return {name: _plain(getattr(message, name)) for name in message.__slots__}
+    return {
+        name: _plain_field(getattr(message, name), type_, json)
+        for name, type_ in zip(message.__slots__, message._slot_types, strict=True)
+    }
 
 
-def _plain(value: Any) -> Any:
-    if isinstance(value, (str, int, float, bytes)):
+def _plain_field(value: Any, type_: str, json: bool) -> Any:
+    base, bracket, _ = type_.partition("[")
+    builtin = BUILTINS.get(base)
+    if not bracket:
+        return _plain(value, builtin, json)
+    try:
+        if builtin is not None and builtin.octets:
+            octets = bytes(values.as_octets(value))
+            return b64encode(octets).decode() if json else octets
+        if builtin is not None and builtin.kind in ("int", "float"):
+            # Buffers of the other byte order have no tolist() that works, or none at all.
+            if not isinstance(value, (list, tuple)):
+                wire = memoryview(values.as_numbers(builtin.code)(value))
+                numbers = values.load_array(builtin.code, wire.tobytes()).tolist()
+                finite = not json or builtin.kind == "int"
+                return numbers if finite else [_float_to_json(number) for number in numbers]
+        else:
+            value = values.as_list(value)
+    except Exception:
+        # Left as it is: what does not fit is found, and named, by the encoder.
         return value
-    if hasattr(type(value), "_slot_types") and not hasattr(value, "nsecs"):
-        return to_dict(value)
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    if isinstance(value, bytearray) or (
-        isinstance(value, (memoryview, array)) and _item_code(value) == "B"
-    ):
-        return bytes(value)
-    if isinstance(value, (memoryview, array)) or hasattr(value, "tolist"):
-        return value.tolist()
-    if hasattr(value, "nsecs"):
-        return {"secs": value.secs, "nsecs": value.nsecs}
-    return value
+    return [_plain(item, builtin, json) for item in value]
 
 
-def _item_code(value: memoryview | array[Any]) -> str:
-    return value.format if isinstance(value, memoryview) else value.typecode
+def _plain(value: Any, builtin: Builtin | None, json: bool) -> Any:
+    """One value, as one of Python's own classes: of subclasses, YAML knows nothing."""
+    kind = type(value)
+    if kind is float:
+        return _float_to_json(value) if json else value
+    if kind is str or kind is int or kind is bool:
+        return value
+    if builtin is None:
+        return to_dict(value, json=json) if hasattr(kind, "_slot_types") else value
+    if builtin.kind in _SECONDS:
+        return {"secs": value.secs, "nsecs": value.nsecs} if hasattr(value, "nsecs") else value
+    if isinstance(value, str):
+        return str.__str__(value)
+    if isinstance(value, (bytes, bytearray)):
+        return value.decode("utf-8", "surrogateescape")
+    if hasattr(kind, "tolist"):
+        return _plain(value.tolist(), builtin, json)
+    if hasattr(kind, "__index__"):
+        return value.__index__()
+    return _plain(float(value), builtin, json) if hasattr(kind, "__float__") else value
+
+
+# JSON has no such numbers; the names are those that protobuf gives them, too.
+_NON_FINITE = {"NaN": nan, "Infinity": inf, "-Infinity": -inf}
+_NAN_BITS = re.compile(r"NaN:([0-9a-f]{16})\Z")
+_USUAL_NAN = struct.pack(">d", nan)
+
+
+def _float_to_json(value: float) -> float | str:
+    if isfinite(value):
+        return value
+    if value == value:
+        return "Infinity" if value > 0 else "-Infinity"
+    bits = struct.pack(">d", value)
+    return "NaN" if bits == _USUAL_NAN else f"NaN:{bits.hex()}"
+
+
+def _float_from_json(text: str) -> float:
+    match = _NAN_BITS.match(text)
+    if match is None:
+        return _NON_FINITE[text]
+    (value,) = struct.unpack(">d", bytes.fromhex(match[1]))
+    if value == value:
+        raise ValueError("not the bits of a NaN")
+    return float(value)
+
+
+# -- from dicts ----------------------------------------------------------------------
 
 
 def from_dict(cls: type[_M], source: Mapping[str, Any], path: str = "") -> _M:
@@ -91,35 +151,61 @@ def from_dict(cls: type[_M], source: Mapping[str, Any], path: str = "") -> _M:
 
 
 def _from_plain(cls: type[Message], field: Field, value: Any, path: str) -> Any:
-    builtin = BUILTINS.get(field.base_type)
     if not field.is_array:
         return _item(cls, field, value, path)
-    if builtin is not None and builtin.kind in ("int", "float"):
-        if not isinstance(value, (list, tuple)):
-            return value
+    builtin = BUILTINS.get(field.base_type)
+    if builtin is not None and builtin.octets and isinstance(value, str):
         try:
-            if builtin.octets:
-                return bytes(value)
-            return array(builtin.code, value)
-        except Exception as exc:
-            raise SerializationError(
-                f"{path}: expected {field.type}, got {describe(value)} ({exc})"
-            ) from None
+            return b64decode(value, validate=True)
+        except ValueError as exc:
+            _wrong(path, f"{field.type} in base64", value, f" ({exc})")
+    if builtin is not None and builtin.kind in ("int", "float"):
+        # A buffer stays what it is: it is looked at where it is encoded.
+        return _numbers(cls, field, value, path) if isinstance(value, (list, tuple)) else value
     try:
         items = values.as_list(value)
     except TypeError:
-        raise SerializationError(f"{path}: expected {field.type}, got {describe(value)}") from None
+        _wrong(path, field.type, value)
     return [_item(cls, field, item, f"{path}[{index}]") for index, item in enumerate(items)]
 
 
+def _numbers(
+    cls: type[Message], field: Field, items: Sequence[Any], path: str
+) -> bytes | array[Any]:
+    builtin = BUILTINS[field.base_type]
+
+    def numbers(items: Sequence[Any]) -> bytes | array[Any]:
+        return bytes(items) if builtin.octets else values.number_array(builtin.code, items)
+
+    if id(_yaml_nan()) not in map(id, items):
+        try:
+            return numbers(items)
+        except Exception:
+            # Strings among the numbers of JSON, or an error that wants its place.
+            pass
+    items = [_item(cls, field, item, f"{path}[{i}]") for i, item in enumerate(items)]
+    for index, item in enumerate(items):
+        try:
+            numbers([item])
+        except Exception as exc:
+            _wrong(f"{path}[{index}]", field.base_type, item, f" ({exc})")
+    return numbers(items)
+
+
 def _item(cls: type[Message], field: Field, value: Any, path: str) -> Any:
-    nested = cls._nested.get(field.base_type)
-    if nested is not None:
-        return from_dict(nested, value, path) if isinstance(value, Mapping) else value
-    kind = _SECONDS.get(field.base_type)
-    if kind is None:
+    builtin = BUILTINS.get(field.base_type)
+    if builtin is None:
+        if isinstance(value, Mapping):
+            return from_dict(cls._nested[field.base_type], value, path)
         return value
     try:
+        if builtin.kind == "float":
+            if isinstance(value, str):
+                return _float_from_json(value)
+            return nan if value is _yaml_nan() else value
+        kind = _SECONDS.get(builtin.kind)
+        if kind is None:
+            return value
         if isinstance(value, Mapping):
             if not value.keys() <= {"secs", "nsecs"}:
                 raise ValueError
@@ -128,11 +214,26 @@ def _item(cls: type[Message], field: Field, value: Any, path: str) -> Any:
             return kind._raw(secs.__index__(), nsecs.__index__())
         if isinstance(value, (int, float)):
             return kind(value)
-    except (AttributeError, ValueError, OverflowError):
-        raise SerializationError(
-            f"{path}: expected {field.base_type}, got {describe(value)}"
-        ) from None
+    except (AttributeError, LookupError, ValueError, OverflowError):
+        _wrong(path, field.base_type, value)
     return value
+
+
+def _yaml_nan() -> Any:
+    """What PyYAML makes of ``.nan``: one object, whose sign is set by how it is computed.
+
+    It stands for the NaN that was written, which is the usual one. Where there is no
+    PyYAML this is some object that nobody has.
+    """
+    constructor = getattr(sys.modules.get("yaml.constructor"), "SafeConstructor", None)
+    return getattr(constructor, "nan_value", _NO_PYYAML)
+
+
+_NO_PYYAML = object()
+
+
+def _wrong(path: str, expected: str, value: Any, why: str = "") -> NoReturn:
+    raise SerializationError(f"{path}: expected {expected}, got {describe(value)}{why}") from None
 
 
 # -- equality ------------------------------------------------------------------------
@@ -162,13 +263,26 @@ def _is_time(value: Any) -> bool:
 
 
 def _is_sequence(value: Any) -> bool:
-    return isinstance(value, (list, tuple, bytes, bytearray, array, memoryview)) or hasattr(
-        value, "__array__"
-    )
+    if isinstance(value, (list, tuple)) or hasattr(value, "__array__"):
+        return True
+    try:
+        memoryview(value)
+    except TypeError:
+        return False
+    return True
 
 
 def _sequence(value: Any) -> Any:
-    return value.tolist() if hasattr(value, "tolist") else value
+    if isinstance(value, (list, tuple)):
+        return value
+    if hasattr(value, "__array__"):
+        return value.tolist()
+    view = memoryview(value)
+    try:
+        return view.tolist()
+    except NotImplementedError:
+        # The formats of ctypes and of the other byte order.
+        return struct.unpack(f"{view.format[0]}{len(view)}{view.format[1:]}", view.tobytes())
 
 
 # -- NumPy ---------------------------------------------------------------------------

@@ -44,6 +44,11 @@ class _Reader:
         count: int = _length(self.data, self.pos - 4)[0]
         return count
 
+    def hollow(self, count: int, path: str) -> None:
+        self.empty += count
+        if self.empty > MAX_EMPTY:
+            raise self.fail(path, f"{count} messages without content, more than accepted")
+
     def message(self, cls: type[Message], path: str) -> None:
         for field in cls._fields:
             self.field(cls, field, f"{path}.{field.name}" if path else field.name)
@@ -59,11 +64,9 @@ class _Reader:
         count = 1
         if field.is_array:
             count = self.length(path) if field.array_len is None else field.array_len
-            if size == 0:
-                self.empty += count
-                if self.empty > MAX_EMPTY:
-                    raise self.fail(path, f"{count} messages without content, more than accepted")
         if size is not None:
+            if nested is not None:
+                self.hollow(count * (nested._hollow + (field.is_array and size == 0)), path)
             self.step(count * size, path)
             return
         smallest = 4 if nested is None else nested._min_size

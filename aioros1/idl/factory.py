@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from keyword import iskeyword
 from typing import Any, cast
 
 from aioros1.errors import MessageSpecError
 from aioros1.idl.builtin_types import BUILTINS
-from aioros1.idl.message import Message, MessageType
+from aioros1.idl.digest import full_text
+from aioros1.idl.message import AnyMessage, Message, MessageType
 from aioros1.idl.spec import Field, MessageSpec
 from aioros1.time import Duration, Time
 
-__all__ = ["make_message_class"]
+__all__ = ["make_message_class", "specs_of"]
 
 _MAX_SIZE = 1 << 31
 _MAX_LEAVES = 20_000
@@ -44,9 +45,8 @@ def make_message_class(
     nested: Mapping[str, type[Message]],
     *,
     md5sum: str,
-    full_text: str,
     module: str,
-) -> type[Message]:
+) -> type[AnyMessage]:
     """Make the class of a message type.
 
     ``nested`` has the classes of the types that its fields are of. Raises
@@ -73,19 +73,19 @@ def make_message_class(
         "__doc__": f"The message type {spec.type}.",
         "_type": spec.type,
         "_md5sum": md5sum,
-        "_full_text": full_text,
+        "_full_text": _FullText(),
         "_has_header": spec.has_header,
         "_slot_types": [field.type for field in spec.fields],
         "_spec": spec,
         "_fields": spec.fields,
         "_constants": spec.constants,
         "_nested": dict(nested),
-        "_closure": frozenset({spec.type}).union(*(cls._closure for cls in nested.values())),
         "_fixed_size": min_size if fixed else None,
         "_min_size": min_size,
         "_has_bulk": _has_bulk(spec, nested),
         "_leaves": leaves,
         "_loops": loops,
+        "_hollow": _hollow(spec, nested),
         "__init__": _constructor(spec, nested),
     }
     for constant in spec.constants:
@@ -95,7 +95,35 @@ def make_message_class(
         if name.isidentifier() and name not in slots and not name.startswith("_"):
             namespace[name] = constant.value
     made: Any = MessageType(spec.type.partition("/")[2], (Message,), namespace)
-    return cast("type[Message]", made)
+    return cast("type[AnyMessage]", made)
+
+
+class _FullText:
+    """``_full_text``, put together when it is asked for.
+
+    A definition from a peer can have hundreds of types, and the texts of all types that
+    are inside are in the text of each.
+    """
+
+    def __set_name__(self, owner: type[Message], name: str) -> None:
+        self._class = owner
+
+    def __get__(self, instance: object, owner: object) -> str:
+        cls = self._class
+        text = cls._full_text = full_text(cls._spec, specs_of(cls._nested.values()).__getitem__)
+        return text
+
+
+def specs_of(classes: Iterable[type[Message]]) -> dict[str, MessageSpec]:
+    """The specs of the classes and of all that is inside them, by type."""
+    found: dict[str, MessageSpec] = {}
+    waiting = list(classes)
+    while waiting:
+        cls = waiting.pop()
+        if cls._type not in found:
+            found[cls._type] = cls._spec
+            waiting += cls._nested.values()
+    return found
 
 
 def _leaves(spec: MessageSpec, nested: Mapping[str, Any]) -> int:
@@ -129,6 +157,20 @@ def _size(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> tuple[int, 
         total += size
         fixed = fixed and item_fixed
     return total, fixed
+
+
+def _hollow(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> int:
+    """How many messages of no size there are in the fixed arrays of a message."""
+    total = 0
+    for field in spec.fields:
+        cls = nested.get(field.base_type)
+        if cls is None:
+            continue
+        if not field.is_array:
+            total += cls._hollow
+        elif field.array_len is not None:
+            total += field.array_len * (cls._hollow + (cls._fixed_size == 0))
+    return total
 
 
 def _has_bulk(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> bool:

@@ -7,6 +7,7 @@ one, and its attributes are classes, which are loaded when they are first asked 
 from __future__ import annotations
 
 import sys
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
@@ -16,85 +17,136 @@ from typing import Any
 
 from aioros1.errors import MessageNotFoundError
 from aioros1.idl.paths import Kind
-from aioros1.idl.store import default_store
+from aioros1.idl.store import ACTION_SUFFIXES, MessageStore, default_store
 
-__all__ = ["DefinitionFinder", "install_finder", "package_module", "package_names"]
+__all__ = [
+    "DefinitionFinder",
+    "DefinitionLoader",
+    "install_finder",
+    "names_of",
+    "package_module",
+    "package_names",
+]
 
-_PREFIXES: dict[str, Kind] = {
-    "aioros1.msg.": "msg",
-    "aioros1.srv.": "srv",
-    "aioros1.action.": "action",
-}
+
+def names_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
+    """What the module of a package has, sorted: its types, and the messages they consist of."""
+    names = {name.partition("/")[2] for name in store.types(package, kind)}
+    if kind == "srv":
+        names |= {f"{name}{suffix}" for name in names for suffix in ("Request", "Response")}
+    elif kind == "msg":
+        actions = [name.partition("/")[2] for name in store.types(package, "action")]
+        names |= {f"{name}{suffix}" for name in actions for suffix in ACTION_SUFFIXES}
+    return sorted(names)
 
 
-class DefinitionFinder(MetaPathFinder, Loader):
-    """Finds the modules below the three, and nothing else."""
+class DefinitionLoader(Loader):
+    """Makes the module of all types that a package has of one kind."""
 
-    def find_spec(
-        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
-    ) -> ModuleSpec | None:
-        for prefix, kind in _PREFIXES.items():
-            if fullname.startswith(prefix):
-                package = fullname.removeprefix(prefix)
-                if package.isidentifier() and default_store().types(package, kind):
-                    return ModuleSpec(fullname, self, origin=f"definitions of {package}")
-        return None
+    def __init__(self, store: MessageStore, package: str, kind: Kind) -> None:
+        self.store = store
+        self.package = package
+        self.kind: Kind = kind
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
         return None
 
     def exec_module(self, module: ModuleType) -> None:
-        parent, _, package = module.__name__.rpartition(".")
-        fill_module(module, package, _PREFIXES[f"{parent}."])
+        module.__doc__ = f"The {self.kind} types of {self.package}, loaded when they are used."
+        for name in [name for name in vars(module) if not name.startswith("_")]:
+            delattr(module, name)  # it is being reloaded
+        module.__dict__["__getattr__"] = self._getter(module)
+        module.__dict__["__dir__"] = self.names
 
+    def names(self) -> list[str]:
+        """What the module has."""
+        return names_of(self.store, self.package, self.kind)
 
-def fill_module(module: ModuleType, package: str, kind: Kind) -> None:
-    """Give a module its two hooks."""
-    module.__doc__ = f"The {kind} types of {package}, loaded when they are used."
-    module.__dict__["__getattr__"] = _getter(module, package, kind)
-    module.__dict__["__dir__"] = lambda: _names(package, kind)
-
-
-def _names(package: str, kind: Kind) -> list[str]:
-    return [name.partition("/")[2] for name in default_store().types(package, kind)]
-
-
-def _load(package: str, name: str, kind: Kind) -> Any:
-    store = default_store()
-    if kind == "msg":
-        return store.load_msg(f"{package}/{name}")
-    if kind == "action":
-        return store.load_action(f"{package}/{name}")
-    if store.types(package, "srv").count(f"{package}/{name}"):
-        return store.load_srv(f"{package}/{name}")
-    for suffix in ("Request", "Response"):
-        base = name.removesuffix(suffix)
-        if base != name:
-            return getattr(store.load_srv(f"{package}/{base}"), suffix)
-    return store.load_srv(f"{package}/{name}")
-
-
-def _getter(module: ModuleType, package: str, kind: Kind) -> Callable[[str], Any]:
-    def get(name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(f"module {module.__name__!r} has no attribute {name!r}")
+    def load(self, name: str) -> Any:
+        """One of these. Raises :class:`AttributeError` that says where it was searched."""
         try:
-            found = _load(package, name, kind)
+            return self._load(name)
         except MessageNotFoundError as exc:
-            known = ", ".join(_names(package, kind))
+            known = ", ".join(self.names())
             raise AttributeError(
-                f"{package} has no {kind} type {name!r} ({exc}); it has: {known}"
+                f"{self.package} has no {self.kind} type {name!r} ({exc}); it has: {known}"
             ) from exc
-        module.__dict__[name] = found
-        return found
 
-    return get
+    def _load(self, name: str) -> Any:
+        store, type_ = self.store, f"{self.package}/{name}"
+        if self.kind == "msg":
+            return store.load_msg(type_)
+        if self.kind == "action":
+            return store.load_action(type_)
+        if type_ not in store.types(self.package, "srv"):
+            for suffix in ("Request", "Response"):
+                base = type_.removesuffix(suffix)
+                if base != type_:
+                    return getattr(store.load_srv(base), suffix)
+        return store.load_srv(type_)
+
+    def _getter(self, module: ModuleType) -> Callable[[str], Any]:
+        def get(name: str) -> Any:
+            if name == "__all__":
+                return self.names()
+            if name.startswith("_"):
+                raise AttributeError(f"module {module.__name__!r} has no attribute {name!r}")
+            found = module.__dict__[name] = self.load(name)
+            return found
+
+        return get
+
+
+class DefinitionFinder(MetaPathFinder):
+    """Finds the modules of types by one way to name them."""
+
+    @abstractmethod
+    def loader(self, fullname: str, path: Sequence[str] | None) -> DefinitionLoader | None:
+        """What makes the module of that name, if there is to be one."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        loader = self.loader(fullname, path)
+        if loader is not None:
+            # It is a package, as with rospy. Also, what an import statement wants of a
+            # package and does not get is asked for as a module, in the lines below.
+            origin = f"definitions of {loader.package}"
+            return ModuleSpec(fullname, loader, origin=origin, is_package=True)
+        parent, _, name = fullname.rpartition(".")
+        spec = getattr(sys.modules.get(parent), "__spec__", None)
+        if spec is not None and isinstance(spec.loader, DefinitionLoader) and name[0] != "_":
+            try:
+                spec.loader.load(name)
+            except AttributeError as exc:
+                # The import statement would only say that the name cannot be imported.
+                raise ImportError(str(exc), name=parent) from exc
+        return None
+
+
+class _OurFinder(DefinitionFinder):
+    """``aioros1.msg.pkg``, ``aioros1.srv.pkg``, ``aioros1.action.pkg``."""
+
+    _KINDS: dict[str, Kind] = {  # noqa: RUF012 - a constant
+        "aioros1.msg": "msg",
+        "aioros1.srv": "srv",
+        "aioros1.action": "action",
+    }
+
+    def loader(self, fullname: str, path: Sequence[str] | None) -> DefinitionLoader | None:
+        parent, _, package = fullname.rpartition(".")
+        kind = self._KINDS.get(parent)
+        if kind is None or not package.isidentifier():
+            return None
+        store = default_store()
+        return DefinitionLoader(store, package, kind) if names_of(store, package, kind) else None
 
 
 def install_finder() -> None:
     """Make the modules importable; the second time does nothing."""
-    if not any(isinstance(finder, DefinitionFinder) for finder in sys.meta_path):
-        sys.meta_path.append(DefinitionFinder())
+    if not any(isinstance(finder, _OurFinder) for finder in sys.meta_path):
+        # In front, as the directories with stubs look like packages without code.
+        sys.meta_path.insert(0, _OurFinder())
 
 
 def package_module(parent: str, name: str) -> ModuleType:
@@ -113,6 +165,6 @@ def package_module(parent: str, name: str) -> ModuleType:
 
 
 def package_names(kind: Kind) -> list[str]:
-    """The packages that have definitions of a kind."""
+    """The packages that have a module of a kind."""
     store = default_store()
-    return [name for name in store.packages() if store.types(name, kind)]
+    return [name for name in store.packages() if names_of(store, name, kind)]

@@ -68,23 +68,23 @@ def parse_service(type: str, text: str, *, path: str = "") -> ServiceSpec:
     path = path or type
     request: list[str] = []
     response: list[str] = []
+    numbered: list[str] = []
     current, response_line = request, 0
     for number, source in enumerate(text.split("\n"), 1):
         if source.startswith(_SEPARATOR):
             if current is request:
-                response_line = number + 1
+                current, response_line = response, number + 1
             else:
-                # Keeps the line numbers right; it does not enter any text.
-                current.append("\0")
-            current = response
-        else:
-            current.append(source)
+                numbered.append("")
+            continue
+        current.append(source)
+        if current is response:
+            numbered.append(source)
     request_text = "".join(f"{source}\n" for source in request)
-    response_text = "".join(f"{source}\n" for source in response if source != "\0")
-    numbered = "\n".join("" if source == "\0" else source for source in response)
-    # Parsed once with a blank in place of further separators, so that errors name the
-    # line of the file, and kept with the text that genmsg would keep.
-    parsed = parse_message(f"{type}Response", numbered, path=path, line=response_line)
+    response_text = "".join(f"{source}\n" for source in response)
+    # Parsed with a blank in place of further separators, so that errors name the line of
+    # the file, and kept with the text that genmsg would keep.
+    parsed = parse_message(f"{type}Response", "\n".join(numbered), path=path, line=response_line)
     return ServiceSpec(
         type,
         parse_message(f"{type}Request", request_text, path=path),

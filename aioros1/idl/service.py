@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
-from aioros1.idl.message import Message
+from aioros1.idl.message import AnyMessage, Message
 from aioros1.idl.spec import ActionSpec, ServiceSpec
 
-__all__ = ["Action", "Service", "make_action_class", "make_service_class"]
+__all__ = [
+    "Action",
+    "AnyAction",
+    "AnyService",
+    "Service",
+    "make_action_class",
+    "make_service_class",
+]
+
+Q = TypeVar("Q", bound=Message)
+A = TypeVar("A", bound=Message)
+Goal = TypeVar("Goal", bound=Message)
+Result = TypeVar("Result", bound=Message)
+Feedback = TypeVar("Feedback", bound=Message)
 
 
-class Service:
-    """The type of a service; subclasses are made by a :class:`MessageStore`."""
+class Service(Generic[Q, A]):
+    """The type of a service; subclasses are made by a :class:`MessageStore`.
+
+    Their ``Request`` and ``Response`` are the classes of the two messages. Checkers read
+    of these in the stub of each service, as a class variable cannot be generic.
+    """
 
     __slots__ = ()
 
@@ -21,11 +39,9 @@ class Service:
     _spec: ClassVar[ServiceSpec]
     _request_class: ClassVar[type[Message]]
     _response_class: ClassVar[type[Message]]
-    Request: ClassVar[type[Message]]
-    Response: ClassVar[type[Message]]
 
 
-class Action:
+class Action(Generic[Goal, Result, Feedback]):
     """The type of an action; subclasses are made by a :class:`MessageStore`.
 
     ``Goal``, ``Result`` and ``Feedback`` are what was written in the definition;
@@ -39,13 +55,30 @@ class Action:
     _md5sum: ClassVar[str]
     _full_text: ClassVar[str]
     _spec: ClassVar[ActionSpec]
-    Action: ClassVar[type[Message]]
-    ActionGoal: ClassVar[type[Message]]
-    ActionResult: ClassVar[type[Message]]
-    ActionFeedback: ClassVar[type[Message]]
-    Goal: ClassVar[type[Message]]
-    Result: ClassVar[type[Message]]
-    Feedback: ClassVar[type[Message]]
+
+
+if TYPE_CHECKING:
+
+    class AnyService(Service[AnyMessage, AnyMessage]):
+        """A service whose type is known at run time only."""
+
+        Request: ClassVar[type[AnyMessage]]
+        Response: ClassVar[type[AnyMessage]]
+
+    class AnyAction(Action[AnyMessage, AnyMessage, AnyMessage]):
+        """An action whose type is known at run time only."""
+
+        Action: ClassVar[type[AnyMessage]]
+        ActionGoal: ClassVar[type[AnyMessage]]
+        ActionResult: ClassVar[type[AnyMessage]]
+        ActionFeedback: ClassVar[type[AnyMessage]]
+        Goal: ClassVar[type[AnyMessage]]
+        Result: ClassVar[type[AnyMessage]]
+        Feedback: ClassVar[type[AnyMessage]]
+
+else:
+    AnyService = Service
+    AnyAction = Action
 
 
 def make_service_class(
@@ -56,7 +89,7 @@ def make_service_class(
     md5sum: str,
     full_text: str,
     module: str,
-) -> type[Service]:
+) -> type[AnyService]:
     """Make the class of a service from those of its two messages."""
     namespace = {
         "__slots__": (),
@@ -71,12 +104,12 @@ def make_service_class(
         "Request": request,
         "Response": response,
     }
-    return type(spec.type.partition("/")[2], (Service,), namespace)
+    return type(spec.type.partition("/")[2], (AnyService,), namespace)
 
 
 def make_action_class(
-    spec: ActionSpec, messages: dict[str, type[Message]], *, module: str
-) -> type[Action]:
+    spec: ActionSpec, messages: Mapping[str, type[Message]], *, module: str
+) -> type[AnyAction]:
     """Make the class of an action from those of its seven messages."""
     namespace = {
         "__slots__": (),
@@ -88,4 +121,4 @@ def make_action_class(
         "_spec": spec,
         **messages,
     }
-    return type(spec.type.partition("/")[2], (Action,), namespace)
+    return type(spec.type.partition("/")[2], (AnyAction,), namespace)

@@ -13,20 +13,33 @@ from typing import Any, Final, TypeAlias
 
 from aioros1.errors import MessageNotFoundError, MessageSpecError
 from aioros1.idl import digest
-from aioros1.idl.factory import make_message_class
-from aioros1.idl.message import Message
+from aioros1.idl.factory import make_message_class, specs_of
+from aioros1.idl.message import AnyMessage
 from aioros1.idl.parser import action_texts, parse_action, parse_message, parse_service, split_type
 from aioros1.idl.paths import KINDS, Kind, SearchPath
-from aioros1.idl.service import Action, Service, make_action_class, make_service_class
+from aioros1.idl.service import (
+    AnyAction,
+    AnyService,
+    make_action_class,
+    make_service_class,
+)
 from aioros1.idl.spec import MessageSpec, ServiceSpec
 
-__all__ = ["MessageStore", "default_store", "load_action", "load_msg", "load_srv"]
+__all__ = [
+    "ACTION_SUFFIXES",
+    "MessageStore",
+    "default_store",
+    "load_action",
+    "load_msg",
+    "load_srv",
+    "standard_store",
+]
 
 _DEFAULT: Final = object()
 _MAX_DEPTH = 100
 _MAX_DEFINITIONS = 1000
 
-_ACTION_SUFFIXES = (
+ACTION_SUFFIXES: Final = (
     "ActionGoal",
     "ActionResult",
     "ActionFeedback",
@@ -37,8 +50,8 @@ _ACTION_SUFFIXES = (
 )
 
 # By other names, as `type` is a parameter in much of this module.
-_MessageClass: TypeAlias = type[Message]
-_ServiceClass: TypeAlias = type[Service]
+_MessageClass: TypeAlias = type[AnyMessage]
+_ServiceClass: TypeAlias = type[AnyService]
 
 _Chain: TypeAlias = tuple[str, ...]
 _Source: TypeAlias = tuple[str, str]  # text, and the path for errors
@@ -67,7 +80,7 @@ class MessageStore:
         self._texts: dict[tuple[Kind, str], str] = {}
         self._messages: dict[str, _MessageClass] = {}
         self._services: dict[str, _ServiceClass] = {}
-        self._actions: dict[str, type[Action]] = {}
+        self._actions: dict[str, type[AnyAction]] = {}
         self._definitions: dict[tuple[str, str], _MessageClass] = {}
         self._lock = RLock()
 
@@ -104,7 +117,7 @@ class MessageStore:
             self._services[type] = service
             return service
 
-    def load_action(self, type: str) -> type[Action]:
+    def load_action(self, type: str) -> type[AnyAction]:
         """The class of an action type; errors as for :meth:`load_msg`.
 
         The seven messages can be loaded by their own names, too.
@@ -144,9 +157,11 @@ class MessageStore:
             parse_action(type, text)
         with self._lock:
             self._texts[kind, type] = text
-            stale = {type} | {f"{type}{suffix}" for suffix in _ACTION_SUFFIXES}
+            stale = {type} | {f"{type}{suffix}" for suffix in ACTION_SUFFIXES}
             self._messages = {
-                name: cls for name, cls in self._messages.items() if not cls._closure & stale
+                name: cls
+                for name, cls in self._messages.items()
+                if stale.isdisjoint(specs_of([cls]))
             }
             self._services.clear()
             self._actions.clear()
@@ -218,6 +233,11 @@ class MessageStore:
         }
         return sorted(names.union(self.parent.types(package, kind) if self.parent else ()))
 
+    def places(self) -> list[str]:
+        """The directories that are searched, in this order."""
+        inherited = self.parent.places() if self.parent else []
+        return list(dict.fromkeys([*self._search.places(), *inherited]))
+
     # -- what users hand over in place of a name ---------------------------------------
 
     def resolve_msg(self, type_or_class: Any) -> _MessageClass:
@@ -227,7 +247,7 @@ class MessageStore:
         from the class's ``_full_text``. Raises :class:`TypeError` for anything else.
         """
         if isinstance(type_or_class, type):
-            if issubclass(type_or_class, Message):
+            if issubclass(type_or_class, AnyMessage):
                 return type_or_class
             type_ = getattr(type_or_class, "_type", None)
             md5sum = getattr(type_or_class, "_md5sum", None)
@@ -241,7 +261,7 @@ class MessageStore:
     def resolve_srv(self, type_or_class: Any) -> _ServiceClass:
         """The same for services."""
         if isinstance(type_or_class, type):
-            if issubclass(type_or_class, Service):
+            if issubclass(type_or_class, AnyService):
                 return type_or_class
             type_ = getattr(type_or_class, "_type", None)
             md5sum = getattr(type_or_class, "_md5sum", None)
@@ -283,15 +303,16 @@ class MessageStore:
         path = self._search.find(*split_type(type), kind)
         if path is None:
             return None
-        # Definitions are ASCII by rule; a comment in Latin-1 must not be the end of it.
-        return path.read_text(encoding="utf-8", errors="replace"), str(path)
+        # Definitions are ASCII by rule; a comment in Latin-1 must not be the end of it, and
+        # a constant keeps its octets, which count for the MD5 sum.
+        return path.read_text(encoding="utf-8", errors="surrogateescape"), str(path)
 
     def _spec(self, type: str) -> MessageSpec | None:
         source = self._source("msg", type)
         if source is not None:
             return parse_message(type, source[0], path=source[1])
         # The messages of an action exist as files only where it has been built.
-        for suffix in _ACTION_SUFFIXES:
+        for suffix in ACTION_SUFFIXES:
             base = type.removesuffix(suffix)
             if base != type and not base.endswith("/"):
                 source = self._source("action", base)
@@ -307,7 +328,7 @@ class MessageStore:
         spec = self._spec(type)
         if spec is None:
             inherited = self._inherited(type, chain)
-            if not self._overrides(inherited._closure):
+            if not self._overrides(specs_of([inherited])):
                 self._messages[type] = inherited
                 return inherited
             spec = inherited._spec
@@ -336,8 +357,9 @@ class MessageStore:
             if self.parent is None:
                 raise self._not_found(type, ("srv",))
             inherited = self.parent.load_srv(type)
-            closure = inherited.Request._closure | inherited.Response._closure
-            if not self._overrides(closure - {inherited.Request._type, inherited.Response._type}):
+            parts = (inherited.Request, inherited.Response)
+            inside = specs_of(cls for part in parts for cls in part._nested.values())
+            if not self._overrides(inside):
                 return inherited
             spec = inherited._spec
         else:
@@ -347,7 +369,7 @@ class MessageStore:
     def _not_found(
         self, type: str, kinds: tuple[Kind, ...], chain: _Chain = ()
     ) -> MessageNotFoundError:
-        places = ", ".join(self._search.places()) or "no directory"
+        places = ", ".join(self.places()) or "no directory"
         files = ", ".join(f".{kind}" for kind in kinds)
         return MessageNotFoundError(
             f"no definition ({files}) of {type}{_needed_by(chain)}; searched: {places}"
@@ -385,27 +407,14 @@ def _build(spec: MessageSpec, load: _Load, chain: _Chain, *, kind: Kind = "msg")
             circle = " -> ".join((*chain[chain.index(name) :], name))
             raise MessageSpecError(f"a type that contains itself: {circle}", path=spec.type)
         nested[name] = load(name, chain)
-    lookup = _specs(nested.values()).__getitem__
+    specs = {name: cls._spec for name, cls in nested.items()}
     sums = {name: cls._md5sum for name, cls in nested.items()}
     return make_message_class(
         spec,
         nested,
-        md5sum=digest.md5sum(spec, lookup, sums),
-        full_text=digest.full_text(spec, lookup),
+        md5sum=digest.md5sum(spec, specs.__getitem__, sums),
         module=_module(kind, spec.type),
     )
-
-
-def _specs(classes: Iterable[_MessageClass]) -> dict[str, MessageSpec]:
-    """The specs of the classes and of all that is inside them."""
-    found: dict[str, MessageSpec] = {}
-    waiting = list(classes)
-    while waiting:
-        cls = waiting.pop()
-        if cls._type not in found:
-            found[cls._type] = cls._spec
-            waiting += cls._nested.values()
-    return found
 
 
 def _build_service(spec: ServiceSpec, load: _Load) -> _ServiceClass:
@@ -421,7 +430,7 @@ def _join_service(type: str, request: _MessageClass, response: _MessageClass) ->
 
 
 def _service(spec: ServiceSpec, request: _MessageClass, response: _MessageClass) -> _ServiceClass:
-    lookup = _specs([request, response]).__getitem__
+    lookup = specs_of([request, response]).__getitem__
     return make_service_class(
         spec,
         request,
@@ -441,8 +450,13 @@ def default_store() -> MessageStore:
 
     The classes in :mod:`aioros1.msg` and its siblings are those of this store.
     """
+    return standard_store()
+
+
+def standard_store(paths: Iterable[str | os.PathLike[str]] = ()) -> MessageStore:
+    """A new store that searches ``paths``, and then what :func:`default_store` searches."""
     store = MessageStore(parent=None)
-    store._search = SearchPath(standard=True)
+    store._search = SearchPath(paths, standard=True)
     return store
 
 
@@ -456,6 +470,6 @@ def load_srv(type: str) -> _ServiceClass:
     return default_store().load_srv(type)
 
 
-def load_action(type: str) -> type[Action]:
+def load_action(type: str) -> type[AnyAction]:
     """:meth:`MessageStore.load_action` of the default store."""
     return default_store().load_action(type)

@@ -31,6 +31,7 @@ __all__ = [
     "as_time",
     "collect",
     "load_array",
+    "number_array",
     "own_memory",
     "pack_durations",
     "pack_strings",
@@ -180,17 +181,17 @@ def string_packer() -> Callable[[Any], bytes]:
     return pack
 
 
-def string_reader(escape: bool) -> Callable[[bytes, int, int], tuple[list[str], int]]:
+def string_reader(escape: bool) -> Callable[[bytes, int, int, int], tuple[list[str], int]]:
     """A function that reads the strings of one field, and remembers what it read last.
 
-    It takes the data, the position and the number of strings, and gives the list and the
-    position behind it. Running out of data is some exception, or a position too high.
+    It takes the data, the position, the end and the number of strings, and gives the list
+    and the position behind it. Running out of data is some exception.
     """
     last: tuple[int, bytes, list[str]] = (0, b"", [])
 
-    def read(data: bytes, pos: int, count: int) -> tuple[list[str], int]:
+    def read(data: bytes, pos: int, end: int, count: int) -> tuple[list[str], int]:
         nonlocal last
-        if count == last[0] and data.startswith(last[1], pos):
+        if count == last[0] and data.startswith(last[1], pos, end):
             return last[2].copy(), pos + len(last[1])
         texts: list[str] = []
         add = texts.append
@@ -199,11 +200,13 @@ def string_reader(escape: bool) -> Callable[[bytes, int, int], tuple[list[str], 
             (size,) = _unpack_length(data, pos)
             first = pos + 4
             pos = first + size
+            if pos > end:
+                raise ValueError
             if escape:
                 add(data[first:pos].decode("utf-8", "surrogateescape"))
             else:
                 add(data[first:pos].decode())
-        if start < pos <= start + _REMEMBERED and pos <= len(data):
+        if start < pos <= start + _REMEMBERED:
             last = count, data[start:pos], texts.copy()
         return texts, pos
 
@@ -259,11 +262,11 @@ def as_numbers(code: str) -> Callable[[Any], array[Any] | memoryview]:
 
     def convert(value: Any) -> array[Any] | memoryview:
         if isinstance(value, (list, tuple)):
-            return to_wire(_from_items(code, value))
+            return to_wire(number_array(code, value))
         try:
             view = memoryview(value)
         except TypeError:
-            return to_wire(_from_items(code, as_list(value)))
+            return to_wire(number_array(code, as_list(value)))
         order = view.format[:1] if view.format[:1] in "@=<>!" else ""
         letter = view.format[len(order) :]
         if view.ndim != 1:
@@ -272,12 +275,13 @@ def as_numbers(code: str) -> Callable[[Any], array[Any] | memoryview]:
         size = struct.calcsize(order + letter) if _shape(letter)[1] else 0
         if (_shape(letter)[0], size) != shape:
             raise TypeError(f"a buffer of other items: {view.format!r}")
-        if order in (">", "!") if LITTLE else order == "<":
-            return to_wire(_from_items(code, value.tolist()))
-        if LITTLE and view.c_contiguous:
+        swapped = order in (">", "!") if LITTLE else order == "<"
+        if LITTLE and not swapped and view.c_contiguous:
             return view
         numbers: array[Any] = array(code)
         numbers.frombytes(view.tobytes())
+        if swapped:
+            numbers.byteswap()
         return to_wire(numbers)
 
     return convert
@@ -297,7 +301,8 @@ def load_array(code: str, octets: Any) -> array[Any]:
     return to_wire(numbers)
 
 
-def _from_items(code: str, items: Sequence[Any]) -> array[Any]:
+def number_array(code: str, items: Sequence[Any]) -> array[Any]:
+    """A native array of these numbers; any exception for one that does not fit."""
     numbers: array[Any] = array(code, items)
     # array() rounds what is too large for a float32 to infinity; struct refuses it.
     if code == "f" and (inf in numbers or -inf in numbers):

@@ -288,18 +288,28 @@ def _decode(data: bytes, root: str, max_depth: int) -> _Decoder:
     parser.EndElementHandler = decoder.end
     parser.CharacterDataHandler = decoder.text_append
     parser.StartDoctypeDeclHandler = _refuse_doctype
+    parser.XmlDeclHandler = _refuse_encoding
     try:
         parser.Parse(data, True)
     except XmlRpcError:
         raise
-    except (expat.ExpatError, ValueError, LookupError) as error:
-        # LookupError and ValueError: an encoding declaration Python cannot follow.
+    except (expat.ExpatError, ValueError) as error:
         raise XmlRpcError(f"not XML: {error}") from None
     return decoder
 
 
 def _refuse_doctype(*_: object) -> NoReturn:
     raise XmlRpcError("document type declarations are refused")
+
+
+# Those that expat knows. For any other it would ask Python, which imports a module by that
+# name, and never forgets a name that somebody came up with.
+_ENCODINGS = frozenset({"utf-8", "utf-16", "utf-16be", "utf-16le", "iso-8859-1", "us-ascii"})
+
+
+def _refuse_encoding(version: str, encoding: str | None, standalone: int) -> None:
+    if encoding is not None and encoding.lower() not in _ENCODINGS:
+        raise XmlRpcError(f"not an encoding for XML-RPC: {_brief(encoding)}")
 
 
 _UNSET: Any = object()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import subprocess
 import sys
 from pathlib import Path
@@ -43,9 +44,24 @@ def test_names_are_listed() -> None:
     assert "std_srvs" not in dir(aioros1.msg)
 
 
+def test_everything_is_imported_by_a_star() -> None:
+    names: dict[str, object] = {}
+    exec("from aioros1.srv.std_srvs import *", names)
+    assert names.keys() > {"SetBool", "SetBoolRequest", "SetBoolResponse", "Empty", "Trigger"}
+    assert names["SetBool"] is load_srv("std_srvs/SetBool")
+
+
+def test_a_module_is_reloaded() -> None:
+    import aioros1.msg.std_msgs as module
+
+    before = module.String
+    assert importlib.reload(module) is module
+    assert module.String is before
+
+
 def test_unknown_names() -> None:
-    with pytest.raises(ImportError, match="NoSuchType"):
-        from aioros1.msg.std_msgs import NoSuchType  # noqa: F401
+    with pytest.raises(ImportError, match=r"std_msgs has no msg type 'Sting' .*searched: .*String"):
+        from aioros1.msg.std_msgs import Sting  # type: ignore[attr-defined]  # noqa: F401
     module = importlib.import_module("aioros1.msg.std_msgs")
     with pytest.raises(AttributeError, match=r"std_msgs has no msg type 'Sting'.*it has: .*String"):
         _ = module.Sting
@@ -57,7 +73,9 @@ def test_unknown_names() -> None:
         _ = aioros1.msg.no_such_msgs
     with pytest.raises(AttributeError):
         _ = aioros1.msg._private
-    assert not hasattr(module, "__path__")
+    assert importlib.util.find_spec("aioros1.msg.std_msgs._nothing") is None
+    with pytest.raises(ModuleNotFoundError):  # it is there, but no module
+        importlib.import_module("aioros1.msg.std_msgs.String")
     srv = importlib.import_module("aioros1.srv.std_srvs")
     for name in ("NoSuchService", "NoSuchRequest"):
         with pytest.raises(AttributeError, match="std_srvs has no srv type"):
@@ -76,6 +94,22 @@ def test_packages_of_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyP
     go = importlib.import_module("aioros1.action.mine_msgs").Go
     assert go.Goal is mine.GoGoal
     assert "mine_msgs" in dir(aioros1.action)
+
+
+def test_the_messages_of_actions_alone_make_a_module(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "acts_only" / "action").mkdir(parents=True)
+    (tmp_path / "acts_only" / "action" / "Go.action").write_text("int32 a\n---\n---\n")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    module = importlib.import_module("aioros1.msg.acts_only")
+    assert module.GoGoal(a=1).a == 1
+    assert set(dir(module)) == {
+        *("GoAction", "GoGoal", "GoResult", "GoFeedback"),
+        *("GoActionGoal", "GoActionResult", "GoActionFeedback"),
+    }
+    assert "acts_only" in dir(aioros1.msg)
+    assert "acts_only" not in dir(aioros1.srv)
 
 
 def test_importing_reads_no_definitions_and_no_heavy_modules() -> None:

@@ -340,8 +340,8 @@ class TestFromDict:
 
     def test_wrong_shapes(self, cls: Any) -> None:
         for values, text in (
-            ({"ints": ["a"]}, r"ints: expected int32\[\]"),
-            ({"blob": [300]}, r"blob: expected uint8\[\]"),
+            ({"ints": ["a"]}, r"ints\[0\]: expected int32, got 'a'"),
+            ({"blob": [300]}, r"blob\[0\]: expected uint8, got 300"),
             ({"names": "abc"}, r"names: expected string\[\]"),
             ({"poses": [{"x": 1}]}, r"poses\[0\].x: not a field"),
             ({"when": {"seconds": 1}}, "when: expected time"),

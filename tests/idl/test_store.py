@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +46,16 @@ class TestFiles:
         store = MessageStore(tmp_path / root, parent=None)
         assert store.load_msg("my_msgs/Thing")._slot_types == ["int32"]
         assert store.packages() == ["my_msgs"]
+
+    def test_a_file_that_is_not_utf_8(self, tmp_path: Path) -> None:
+        """As it may be in a comment of another age; what counts for the sum is as it is."""
+        file = tmp_path / "my_msgs" / "msg" / "Thing.msg"
+        file.parent.mkdir(parents=True)
+        file.write_bytes(b"# 90\xb0\nstring UNIT=\xb0\nint32 x\n")
+        cls = MessageStore([tmp_path], parent=None).load_msg("my_msgs/Thing")
+        assert cls._md5sum == hashlib.md5(b"string UNIT=\xb0\nint32 x").hexdigest()
+        assert cls.UNIT.encode("utf-8", "surrogateescape") == b"\xb0"
+        assert cls.from_bytes(cls(x=1).to_bytes()).x == 1
 
     def test_packages_are_known_by_their_manifest(self, tmp_path: Path) -> None:
         write(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import encodings
 import enum
 import math
 import xmlrpc.client
@@ -111,6 +112,22 @@ def test_X8_other_encodings() -> None:
     head = "<?xml version='1.0' encoding='iso-8859-1'?>"
     document = f"{head}{call_with('<params><param><value>ü</value></param></params>').decode()}"
     assert decode_call(document.encode("latin-1")) == ("m", ("ü",))
+
+
+@pytest.mark.parametrize("encoding", ["UTF-8", "utf-16", "iso-8859-1", "us-ascii"])
+def test_X8_the_encodings_of_xml(encoding: str) -> None:
+    document = f"<?xml version='1.0' encoding='{encoding}'?>{call_with('').decode()}"
+    assert decode_call(document.encode(encoding)) == ("m", ())
+
+
+@pytest.mark.parametrize("encoding", ["unicode_escape", "punycode", "cp1252", "no-such-encoding"])
+def test_X8_an_encoding_is_not_looked_up_in_python(encoding: str) -> None:
+    known = dict(encodings._cache)  # type: ignore[attr-defined]
+    document = f"<?xml version='1.0' encoding='{encoding}'?>{call_with('').decode()}"
+    with pytest.raises(XmlRpcError, match="not an encoding"):
+        decode_call(document.encode())
+    # What Python was asked for, it remembers for good.
+    assert encodings._cache == known  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("text", ["&#0;", "&#1;", "&#xFFFE;", "&#xD800;", "\x01"])
