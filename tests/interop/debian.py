@@ -8,7 +8,14 @@ from pathlib import Path
 
 import pytest
 
-__all__ = ["PYTHON", "ROS_ENVIRONMENT", "environment", "require", "require_python"]
+__all__ = [
+    "PYTHON",
+    "ROS_ENVIRONMENT",
+    "environment",
+    "require",
+    "require_definitions",
+    "require_python",
+]
 
 PYTHON = "/usr/bin/python3"
 """The interpreter that Debian's rospy belongs to."""
@@ -87,6 +94,13 @@ def require_python(*modules: str) -> None:
     for module in modules:
         if not (PYTHON_PACKAGES / module).is_dir():
             _missing(PYTHON_MODULES.get(module, f"python3-{module.replace('_', '-')}"), module)
+
+
+def require_definitions(package: str, debian_package: str) -> None:
+    """As :func:`require`, for the definition files of a ROS package."""
+    folder = Path("/usr/share") / package
+    if not any((folder / kind).is_dir() for kind in ("msg", "srv", "action")):
+        _missing(debian_package, f"the definitions of {package}")
 
 
 def environment(master_uri: str, home: Path) -> dict[str, str]:
