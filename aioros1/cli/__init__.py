@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import os
 import sys
 from collections.abc import Sequence
 
@@ -11,10 +13,11 @@ __all__ = ["main"]
 def main(argv: Sequence[str] | None = None) -> None:
     """Run the command line ``argv`` (``sys.argv`` without the program by default).
 
-    Ends with :class:`SystemExit`: 0 for success, 1 for failure, 2 without the extra.
+    Ends with :class:`SystemExit`: 0 for success, 1 for failure, 2 for wrong usage or
+    without the extra. What went wrong is said on standard error.
     """
     try:
-        import cyclopts  # noqa: F401
+        import cyclopts
         import rich  # noqa: F401
     except ImportError as error:
         print(
@@ -22,5 +25,22 @@ def main(argv: Sequence[str] | None = None) -> None:
         )
         raise SystemExit(2) from None
     from aioros1.cli._app import make_app
+    from aioros1.errors import RosError
 
-    make_app()(list(sys.argv[1:] if argv is None else argv))
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # A character that the terminal does not have must not be the end of the output.
+        sys.stdout.reconfigure(errors="backslashreplace")
+    try:
+        try:
+            make_app()(list(sys.argv[1:] if argv is None else argv), exit_on_error=False)
+        finally:
+            sys.stdout.flush()
+    except cyclopts.CycloptsError:  # which has been printed
+        raise SystemExit(2) from None
+    except BrokenPipeError:
+        # Who was reading has seen enough. Nothing is left for the interpreter to flush.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise SystemExit(1) from None
+    except (RosError, OSError) as error:
+        print(f"aioros1: {error}", file=sys.stderr)
+        raise SystemExit(1) from None

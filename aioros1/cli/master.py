@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import signal
 import sys
@@ -22,11 +21,14 @@ def master(*, port: int = 11311, host: str | None = None) -> None:
         else on every interface. By default ROS_HOSTNAME, ROS_IP, or the address of this
         machine.
     """
+    import asyncio  # here, as is the master below: other commands and the help need neither
+
     raise SystemExit(asyncio.run(_serve(host, port)))
 
 
 async def _serve(host: str | None, port: int) -> int:
-    # Imported here: the help needs no network.
+    import asyncio
+
     from aioros1.master import Master
 
     stop = asyncio.Event()
