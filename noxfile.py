@@ -31,6 +31,13 @@ def types(session: nox.Session) -> None:
     session.install(".[cli,lint,test]")
     session.run("mypy")
     session.run("pyright")
+    session.run("python", "-m", "pytest", "-q", "tests/typing")
+
+
+@nox.session
+def stubs(session: nox.Session) -> None:
+    """Write the stubs of the bundled definitions anew; to be run when those were changed."""
+    session.run("python", "-m", "aioros1.idl.stubs")
 
 
 @nox.session(python=PYTHONS)
@@ -68,3 +75,12 @@ def bench(session: nox.Session) -> None:
     """The benchmarks, beside the real programs where they are installed."""
     session.install(".[uvloop]")
     session.run("python", "benchmarks/topics.py", *session.posargs)
+
+
+@nox.session
+def fuzz(session: nox.Session) -> None:
+    """The inputs that fuzzing has left, and some new ones; ``nox -s fuzz -- --seconds 600``."""
+    session.install(".[fuzz]")
+    session.run("python", "-m", "pytest", "tests/test_fuzz_corpus.py")
+    options = session.posargs or ["--seconds", "20", "--jobs", "2"]
+    session.run("python", "fuzz/run.py", "all", *options)

@@ -49,6 +49,7 @@ _MODULES = {
         "RoleUnregistered",
     ),
     "idl": ("MessageStore", "load_action", "load_msg", "load_srv"),
+    "idl.importer": ("install_importer", "uninstall_importer"),
     "master": ("Master",),
     "node": ("Node",),
     "options": ("Limits", "Timeouts"),

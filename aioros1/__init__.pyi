@@ -32,6 +32,8 @@ from aioros1.idl import MessageStore as MessageStore
 from aioros1.idl import load_action as load_action
 from aioros1.idl import load_msg as load_msg
 from aioros1.idl import load_srv as load_srv
+from aioros1.idl.importer import install_importer as install_importer
+from aioros1.idl.importer import uninstall_importer as uninstall_importer
 from aioros1.master import Master as Master
 from aioros1.node import Node as Node
 from aioros1.options import Limits as Limits

@@ -24,19 +24,17 @@ from aioros1.master_proxy import MasterProxy
 from aioros1.net.hosts import bind_address_for, is_loopback, local_address_facing, resolve, uri_host
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
-from aioros1.options import Limits, NodeOptions, OnError, Overflow, Timeouts
+from aioros1.options import Limits, NodeOptions, OnError, Timeouts
 from aioros1.param_calls import ParamCalls
 from aioros1.peer import NodeProxy
-from aioros1.publisher import Publisher, PublisherOptions
-from aioros1.role import NodeStats, Opening, Role
+from aioros1.role import NodeStats, Role
 from aioros1.roles import Roles
 from aioros1.rosout import Rosout, logger_name, serve_logger_levels
-from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
-from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
+from aioros1.service_calls import ServiceCalls
 from aioros1.slave_api import SlaveApi
-from aioros1.subscriber import Subscriber, SubscriberOptions
 from aioros1.supervisor import Supervisor
 from aioros1.time import Duration, Time
+from aioros1.topic_calls import TopicCalls
 from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
@@ -45,7 +43,7 @@ if TYPE_CHECKING:
 __all__ = ["Node"]
 
 
-class Node(ParamCalls):
+class Node(TopicCalls, ServiceCalls, ParamCalls):
     """A node of a ROS graph, in the event loop it is started in.
 
     ::
@@ -307,139 +305,6 @@ class Node(ParamCalls):
     def events(self) -> EventStream[Event]:
         """Iterate over what happens to the node from now on; ends with the node."""
         return self._events.subscribe()
-
-    # topics
-
-    def advertise(
-        self,
-        topic: str,
-        type: Any,
-        *,
-        latch: bool = False,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = False,
-        headers: Mapping[str, str] | None = None,
-    ) -> Opening[Publisher[Any]]:
-        """Open a publisher; see :class:`PublisherOptions` for the options.
-
-        ``type`` is a message class, ours or genpy's, or ``"pkg/Type"``. Several
-        publishers of one topic in one node look like one to the others. Raises
-        :class:`~aioros1.MasterError`, :class:`~aioros1.MessageError`,
-        :class:`~aioros1.InvalidNameError`, :class:`~aioros1.ClosedError`.
-        """
-        options = PublisherOptions(
-            latch=latch,
-            queue_size=queue_size,
-            overflow=overflow,
-            tcp_nodelay=tcp_nodelay,
-            headers=headers,
-        )
-        return Opening(self._roles.advertise(topic, type, options))
-
-    def subscribe(
-        self,
-        topic: str,
-        type: Any = "*",
-        *,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = True,
-        raw: bool = False,
-        views: bool = False,
-    ) -> Opening[Subscriber[Any]]:
-        """Open a subscriber; see :class:`SubscriberOptions` for the options.
-
-        ``type`` is as for :meth:`advertise`, or ``"*"``: messages are then decoded as
-        each publisher defines them. Raises as :meth:`advertise` does.
-        """
-        options = SubscriberOptions(
-            queue_size=queue_size,
-            overflow=overflow,
-            tcp_nodelay=tcp_nodelay,
-            raw=raw,
-            views=views,
-        )
-        return Opening(self._roles.subscribe(topic, type, options))
-
-    async def wait_for_message(
-        self, topic: str, type: Any = "*", *, timeout: float | None = None
-    ) -> Any:
-        """The next message of a topic.
-
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and as :meth:`subscribe`.
-        """
-        async with (
-            deadline(timeout, f"no message on {self.resolve_name(topic)}"),
-            self.subscribe(topic, type, queue_size=1, overflow="drop_newest") as subscriber,
-        ):
-            return await subscriber.get()
-
-    # services
-
-    def advertise_service(
-        self,
-        name: str,
-        type: Any,
-        handler: Handler | None = None,
-        *,
-        max_concurrency: int | None = None,
-    ) -> Opening[ServiceProvider[Any, Any]]:
-        """Open a service provider.
-
-        ``handler`` is a function or a coroutine function: it takes the request and
-        returns the response, a dict of its fields, or None for a default response. What
-        it raises is the caller's error. Without a handler, iterate the provider. At most
-        ``max_concurrency`` calls are worked on at a time.
-
-        Raises as :meth:`advertise` does, and :class:`ValueError` when this node provides
-        the service already.
-        """
-        options = ServiceProviderOptions(max_concurrency=max_concurrency)
-        return Opening(self._roles.advertise_service(name, type, handler, options))
-
-    def service_caller(
-        self,
-        name: str,
-        type: Any,
-        *,
-        persistent: bool = False,
-        timeout: float | None = None,
-        tcp_nodelay: bool = True,
-    ) -> Opening[ServiceCaller[Any, Any]]:
-        """Open a service caller; see :class:`ServiceCallerOptions` for the options.
-
-        Nobody is asked whether the service is there. Raises
-        :class:`~aioros1.MessageError`, :class:`~aioros1.InvalidNameError` and
-        :class:`~aioros1.ClosedError`.
-        """
-        options = ServiceCallerOptions(
-            persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay
-        )
-        return Opening(self._roles.service_caller(name, type, options))
-
-    async def call(
-        self,
-        name: str,
-        type: Any,
-        request: Any = None,
-        /,
-        *,
-        timeout: float | None = None,
-        **fields: Any,
-    ) -> Any:
-        """One call of a service; see :meth:`ServiceCaller.call`."""
-        async with self.service_caller(name, type) as caller:
-            return await caller.call(request, timeout=timeout, **fields)
-
-    async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
-        """Wait until a service is registered and its provider answers.
-
-        Raises :class:`TimeoutError` after ``timeout`` seconds.
-        """
-        # Of whatever type: to be asked whether it is there, a provider need not know.
-        async with self.service_caller(name, "std_srvs/Empty") as caller:
-            await caller.wait_for_service(timeout=timeout)
 
     # the graph
 

@@ -18,6 +18,7 @@ from aioros1.wire.frames import frame_parts
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
+    from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.node import Node
     from aioros1.publication import Publication
 
@@ -111,7 +112,9 @@ class Publisher(Role, Generic[M]):
         """A new message of the topic's type."""
         return self.message_class(**fields)
 
-    def publish(self, msg: Any = None, /, **fields: Any) -> None:
+    def publish(
+        self, msg: M | GenpyMessage | Mapping[str, Any] | None = None, /, **fields: Any
+    ) -> None:
         """Publish a message, or one made of ``fields``. Never waits.
 
         ``msg`` is a message of the topic's type, also one of genpy's, or a dict of its
@@ -139,7 +142,12 @@ class Publisher(Role, Generic[M]):
         self._send(frame_parts(buffer, join=JOIN))
 
     async def send(
-        self, msg: Any = None, /, *, timeout: float | None = None, **fields: Any
+        self,
+        msg: M | GenpyMessage | Mapping[str, Any] | None = None,
+        /,
+        *,
+        timeout: float | None = None,
+        **fields: Any,
     ) -> None:
         """Publish as soon as every connected subscriber has room in its queue.
 
@@ -191,7 +199,7 @@ class Publisher(Role, Generic[M]):
 
     def _encode(self, msg: Any, fields: dict[str, Any]) -> Frame:
         cls = self.message_class
-        if type(msg) is not cls or fields:
+        if msg.__class__ is not cls or fields:
             msg = message_from(cls, msg, fields, "msg")
         if cls._has_header:
             self._seq = (self._seq + 1) & 0xFFFFFFFF

@@ -114,7 +114,11 @@ class Roles:
         return await self._opened(subscriber)
 
     async def advertise_service(
-        self, name: str, type: Any, handler: Handler | None, options: ServiceProviderOptions
+        self,
+        name: str,
+        type: Any,
+        handler: Handler[Any, Any] | None,
+        options: ServiceProviderOptions,
     ) -> ServiceProvider[Any, Any]:
         node = self._node
         node._check_open()

@@ -32,6 +32,7 @@ from aioros1.wire.service import SUCCESS, ServiceFrameError, frame_length
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
     from aioros1.idl import Service
+    from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.node import Node
 
 __all__ = ["PendingCall", "ServiceCaller", "ServiceCallerOptions"]
@@ -76,7 +77,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         self,
         node: Node,
         name: str,
-        service_class: type[Service],
+        service_class: type[Service[Any, Any]],
         options: ServiceCallerOptions,
     ) -> None:
         super().__init__(node, name)
@@ -108,11 +109,11 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     def request(self, **fields: Any) -> Q:
         """A new request."""
-        return cast("Q", self.service_class.Request(**fields))
+        return cast("Q", self.service_class._request_class(**fields))
 
     async def call(
         self,
-        request: Any = None,
+        request: Q | GenpyMessage | Mapping[str, Any] | None = None,
         /,
         *,
         timeout: float | EllipsisType | None = ...,
@@ -134,8 +135,8 @@ class ServiceCaller(Role, Generic[Q, A]):
         is never taken for another call's.
         """
         self._check_open()
-        message = message_from(self.service_class.Request, request, fields, "request")
-        frame = self.service_class.Request._frame(message)
+        message = message_from(self.service_class._request_class, request, fields, "request")
+        frame = self.service_class._request_class._frame(message)
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
         try:
             async with deadline(seconds, f"service {self.name}: no answer") as limit:
@@ -155,7 +156,7 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     def send_request(
         self,
-        request: Any = None,
+        request: Q | GenpyMessage | Mapping[str, Any] | None = None,
         /,
         *,
         timeout: float | EllipsisType | None = ...,
@@ -245,7 +246,7 @@ class ServiceCaller(Role, Generic[Q, A]):
             self.stats.errors += 1
             raise ServiceError(body.decode("utf-8", "surrogateescape"))
         try:
-            response: A = self.service_class.Response._decode(body, 0, length)
+            response: A = self.service_class._response_class._decode(body, 0, length)
         except DeserializationError as error:
             self.stats.errors += 1
             raise self._lost(f"the provider's answer cannot be read: {error}") from error

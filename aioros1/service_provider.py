@@ -8,7 +8,7 @@ import inspect
 from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeAlias, TypeVar
 
 from aioros1.errors import (
     ClosedError,
@@ -28,6 +28,7 @@ from aioros1.wire.service import SUCCESS, ServiceFrameError, encode_failure, fra
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
     from aioros1.idl import Message, Service
+    from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.node import Node
 
 __all__ = ["ServiceCall", "ServiceProvider", "ServiceProviderOptions"]
@@ -35,7 +36,8 @@ __all__ = ["ServiceCall", "ServiceProvider", "ServiceProviderOptions"]
 Q = TypeVar("Q")
 A = TypeVar("A")
 
-Handler = Callable[[Any], Any] | Callable[[Any], Awaitable[Any]]
+Answer: TypeAlias = A | Mapping[str, Any] | None
+Handler: TypeAlias = Callable[[Q], Answer[A] | Awaitable[Answer[A]]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,7 +72,9 @@ class ServiceCall(Generic[Q, A]):
         """The name of the calling node."""
         return self.header["callerid"]
 
-    async def reply(self, response: Any = None, /, **fields: Any) -> None:
+    async def reply(
+        self, response: A | GenpyMessage | Mapping[str, Any] | None = None, /, **fields: Any
+    ) -> None:
         """Answer with a response, a dict of its fields, or its ``fields``.
 
         Raises :class:`~aioros1.SerializationError` for values that do not fit; the call
@@ -111,8 +115,8 @@ class ServiceProvider(Role, Generic[Q, A]):
         self,
         node: Node,
         name: str,
-        service_class: type[Service],
-        handler: Handler | None,
+        service_class: type[Service[Any, Any]],
+        handler: Handler[Q, A] | None,
         options: ServiceProviderOptions,
     ) -> None:
         super().__init__(node, name)
@@ -205,7 +209,7 @@ class ServiceProvider(Role, Generic[Q, A]):
         self.bytes_received += len(body) + 4
         readable = True
         try:
-            request = self.service_class.Request._decode(body, 0, len(body))
+            request = self.service_class._request_class._decode(body, 0, len(body))
         except DeserializationError as error:
             # The length said where it ends, but a caller that sends such requests and
             # one that lost its place look the same.
@@ -241,7 +245,7 @@ class ServiceProvider(Role, Generic[Q, A]):
         return None
 
     async def _answer(self, request: Any, header: Mapping[str, str]) -> bytes:
-        response_class = self.service_class.Response
+        response_class = self.service_class._response_class
         async with self._slots:
             try:
                 if self._handler is None:
@@ -264,7 +268,7 @@ class ServiceProvider(Role, Generic[Q, A]):
     async def _deferred(self, request: Any, header: Mapping[str, str]) -> bytes:
         if not self._is_open:
             raise ServiceError("the service is shut down")
-        call: ServiceCall[Q, A] = ServiceCall(request, header, self.service_class.Response)
+        call: ServiceCall[Q, A] = ServiceCall(request, header, self.service_class._response_class)
         self._calls.append(call)
         self._unanswered.add(call)
         self._arrived.wake()

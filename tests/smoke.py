@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 import asyncio
+from pathlib import Path
 
 import aioros1
 from aioros1.msg.std_msgs import String
 from aioros1.srv.std_srvs import SetBool
+
+PACKAGE = Path(aioros1.__file__).parent
+
+for name in ("py.typed", "__init__.pyi", "idl/_typing.pyi", "msg/std_msgs/__init__.pyi"):
+    assert (PACKAGE / name).exists(), f"{name} is not in the wheel"
+
+aioros1.install_importer()
+try:
+    from std_msgs.msg import String as SameString
+finally:
+    aioros1.uninstall_importer()
+assert SameString is String
 
 
 async def main() -> None:
