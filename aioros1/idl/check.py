@@ -2,10 +2,14 @@
 
 It makes a clean copy as it goes. An encoder may fail for a value that is fine but of an
 unusual kind; the copy then holds a usual one, and is encoded in its place.
+
+Values come from applications and may be of any class: whatever exception they raise when
+they are looked at, it means that they do not fit.
 """
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -30,6 +34,14 @@ _CONVERT: dict[str, Callable[[Any], Any]] = {
 
 def describe(value: Any) -> str:
     """A value as it appears in an error: short, whatever it is."""
+    try:
+        return _describe(value)
+    except Exception:
+        # Of integers, too, not all can be printed.
+        return f"a value of type {type(value).__name__}"
+
+
+def _describe(value: Any) -> str:
     kind = type(value)
     code = getattr(value, "typecode", None) or getattr(value, "dtype", None)
     if code is not None and hasattr(value, "__len__"):
@@ -39,11 +51,7 @@ def describe(value: Any) -> str:
     message_type = getattr(kind, "_type", None)
     if isinstance(message_type, str):
         return f"a {message_type}"
-    try:
-        text = repr(value[:80] if isinstance(value, (str, bytes, list, tuple)) else value)
-    except Exception:
-        # Of integers, too, not all can be printed.
-        return f"a value of type {kind.__name__}"
+    text = repr(value[:80] if isinstance(value, (str, bytes, list, tuple)) else value)
     return text if len(text) <= 80 else f"{text[:77]}..."
 
 
@@ -67,15 +75,20 @@ def _message(cls: type[Message], message: Any, path: str) -> Message:
         place = f"{path}.{field.name}" if path else field.name
         try:
             value = getattr(message, field.name)
-        except AttributeError:
+        except Exception:
             # genpy appends an underscore to what Python would not take for a name.
-            alias = f"{field.name}_"
-            if not iskeyword(field.name) or not hasattr(message, alias):
+            try:
+                value = getattr(message, f"{field.name}_" if iskeyword(field.name) else "")
+            except Exception:
                 if not path and isinstance(message, cls):
                     raise SerializationError(f"{place}: has no value") from None
                 _wrong(path or cls._type, cls._type, message, f"has no {field.name!r}")
-            value = getattr(message, alias)
-        setattr(result, field.name, _field(cls, field, value, place))
+        try:
+            setattr(result, field.name, _field(cls, field, value, place))
+        except SerializationError:
+            raise
+        except Exception as exc:
+            _wrong(place, field.type, value, type(exc).__name__)
     if not cls._fields and not hasattr(type(message), "_md5sum"):
         _wrong(path or cls._type, cls._type, message)
     return result
@@ -92,7 +105,7 @@ def _field(cls: type[Message], field: Field, value: Any, path: str) -> Any:
     else:
         try:
             items = values.as_list(value)
-        except TypeError:
+        except Exception:
             _wrong(path, field.type, value)
         if builtin is not None:
             result = [_scalar(builtin, v, f"{path}[{i}]") for i, v in enumerate(items)]
@@ -124,27 +137,23 @@ def _numbers(builtin: Builtin, field: Field, value: Any, path: str) -> Any:
 def _scalar(builtin: Builtin, value: Any, path: str) -> Any:
     if builtin.kind == "int":
         try:
-            number = value.__index__()
-        except (AttributeError, TypeError):
+            number = operator.index(value)
+        except Exception:
             _wrong(path, builtin.name, value)
         if not builtin.low <= number <= builtin.high:
             _wrong(path, f"{builtin.name} ({builtin.low} to {builtin.high})", value)
         return number
     if builtin.kind == "float":
-        if isinstance(value, (str, bytes)) or not hasattr(value, "__float__"):
-            # An integer of a kind that is no number to Python otherwise.
-            index = getattr(value, "__index__", None)
-            if index is None:
-                _wrong(path, builtin.name, value)
-            value = index()
         try:
-            number = float(value)
-            values.as_numbers(builtin.code)([number])
+            if isinstance(value, (str, bytes)):
+                raise TypeError
+            real = float(value)
+            values.as_numbers(builtin.code)([real])
         except OverflowError:
             _wrong(path, builtin.name, value, "out of range")
         except Exception:
             _wrong(path, builtin.name, value)
-        return number
+        return real
     try:
         result = _CONVERT[builtin.kind](value)
     except Exception as exc:

@@ -85,7 +85,7 @@ def as_bool(value: Any) -> bool:
 def as_text(value: Any) -> bytes:
     """Subclasses of str, and bytes, which stand for themselves."""
     if isinstance(value, str):
-        return value.encode()
+        return str.encode(value)  # not the value's own, which may be anything
     if isinstance(value, (bytes, bytearray)):
         return bytes(value)
     raise TypeError("neither str nor bytes")
@@ -94,7 +94,7 @@ def as_text(value: Any) -> bytes:
 def as_text_escaped(value: Any) -> bytes:
     """As :func:`as_text`, for strings that were not UTF-8 when they were received."""
     if isinstance(value, str):
-        return value.encode("utf-8", "surrogateescape")
+        return str.encode(value, "utf-8", "surrogateescape")
     return as_text(value)
 
 
@@ -174,7 +174,8 @@ def string_packer() -> Callable[[Any], bytes]:
         if values == last[0]:
             return last[1]
         octets = pack_strings(values)
-        if len(octets) <= _REMEMBERED:
+        # Other lists may be equal to one that has more in it than strings.
+        if len(octets) <= _REMEMBERED and {str}.issuperset(map(type, values)):
             last = list(values), octets
         return octets
 
