@@ -145,9 +145,8 @@ def _scalar(builtin: Builtin, value: Any, path: str) -> Any:
         return number
     if builtin.kind == "float":
         try:
-            if isinstance(value, (str, bytes)):
-                raise TypeError
-            real = float(value)
+            # float() itself would read any kind of text.
+            real = float(value) if hasattr(value, "__float__") else float(operator.index(value))
             values.as_numbers(builtin.code)([real])
         except OverflowError:
             _wrong(path, builtin.name, value, "out of range")

@@ -484,3 +484,13 @@ def test_a_list_of_strings_is_not_taken_for_the_last_one(store: MessageStore) ->
     assert cls._encode(cls([b"a"])) == u32(1, 1) + b"a"
     with pytest.raises(SerializationError, match=r"^names\[0\]: expected string"):
         cls._encode(cls([memoryview(b"a")]))
+
+
+@pytest.mark.parametrize("value", [b"1", bytearray(b"1"), memoryview(b"1"), "1"])
+def test_a_text_is_no_number(value: Any) -> None:
+    store = MessageStore(parent=None)
+    store.add_text("p/Type", "float32 a\nfloat64 b\nint8 c")
+    cls: Any = store.load_msg("p/Type")
+    for name in cls.__slots__:
+        with pytest.raises(SerializationError, match=rf"^{name}: expected "):
+            cls._encode(cls(**{name: value}))
