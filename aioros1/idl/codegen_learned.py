@@ -5,7 +5,7 @@
     layout = known(end - pos)
     if layout:
         try:
-            u1, z2, k3, k4 = layout
+            u1, z2, k3, k4, = layout
             m5 = new6()
             ...
             m7.seq, t8._secs, t8._nsecs, n9, s10, n11, s12, m13.x, ... = u1(data, pos)
@@ -168,7 +168,7 @@ class _LearnedDecoder(Decoder):
         inner.message(nested, element)
         inner.flush()
         self.out.lines.insert(
-            mark, "    " * self.out.depth + f"{', '.join(inner.names)} = {layout}"
+            mark, "    " * self.out.depth + f"{', '.join(inner.names)}, = {layout}"
         )
         self.out.line(f"{position} = {inner.base}")
         self.out.line(f"{items}.append({element})")
@@ -219,7 +219,7 @@ def write_learned(out: Source, cls: type[Message], base: str) -> bool:
     out.line(f"layout = known({size})")
     out.line("if layout:")
     out.line("    try:")
-    out.line(f"        {', '.join(decoder.names)} = layout")
+    out.line(f"        {', '.join(decoder.names)}, = layout")
     out.lines += body
     out.line(f"        return {root}")
     out.line("    except (Differs, ValueError, struct_error):")

@@ -92,7 +92,8 @@ def make_message_class(
         # Not one that a field shadows, nor one that would break the class: names of
         # constants are not checked by genmsg at all.
         name = constant.name
-        if name.isidentifier() and name not in slots and not name.startswith("_"):
+        taken = name in slots or name.startswith("_") or hasattr(Message, name)
+        if name.isidentifier() and not taken:
             namespace[name] = constant.value
     made: Any = MessageType(spec.type.partition("/")[2], (Message,), namespace)
     return cast("type[AnyMessage]", made)

@@ -354,3 +354,12 @@ class TestGenpyMethods:
             assert String.from_bytes(kind(octets)) == String(data="hi")
         with pytest.raises(TypeError):
             String.from_bytes("hi")
+
+
+def test_a_constant_does_not_hide_what_all_messages_have() -> None:
+    store = MessageStore(parent=None)
+    store.add_text("p/Type", "int8 to_bytes=1\nint8 _type=2\nint8 other=3\nint8 x")
+    cls: Any = store.load_msg("p/Type")
+    assert cls(x=4).to_bytes() == b"\4"
+    assert (cls._type, cls.other) == ("p/Type", 3)
+    assert [constant.name for constant in cls._constants] == ["to_bytes", "_type", "other"]
