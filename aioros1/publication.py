@@ -15,7 +15,7 @@ rest of the graph they are one. This is the sending half of the data path:
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from aioros1.connection import ConnectionInfo
 from aioros1.events import PeerConnected, PeerDisconnected
@@ -47,7 +47,7 @@ class Publication:
         # slow it down while we walk through them.
         self._open: tuple[OutgoingLink, ...] = ()
         self._slow: tuple[OutgoingLink, ...] = ()
-        self._pending: list[bytes] = []
+        self._pending: list[Frame] = []  # all of them bytes
         self._pending_bytes = 0
         self._in_turn = False
         self.turn_is_full = False
@@ -110,18 +110,18 @@ class Publication:
 
     # sending
 
-    def send(self, frame: Frame, publisher: Publisher[Any]) -> None:
+    def send(self, frame: Frame, size: int, publisher: Publisher[Any]) -> None:
         """Give ``frame`` to every connection, or to its queue, as ``publisher`` wants."""
-        alone = not isinstance(frame, bytes) or len(frame) >= JOIN
+        alone = size >= JOIN or not isinstance(frame, bytes)
         if alone:
             # Before anything else: a connection may fill up with what is sent here, and
             # then belongs to those for whom the frame is queued.
             self._flush()
         for link in self._slow:
             _enqueue(link, frame, publisher)
-        if self._in_turn and isinstance(frame, bytes) and not alone:
+        if self._in_turn and not alone:
             self._pending.append(frame)
-            self._pending_bytes += len(frame)
+            self._pending_bytes += size
             if self._pending_bytes >= JOIN:
                 self._flush()
                 self.turn_is_full = True
@@ -150,7 +150,7 @@ class Publication:
         if pending:
             self._pending = []
             self._pending_bytes = 0
-            block = b"".join(pending)
+            block = b"".join(cast("list[bytes]", pending))
             for link in self._open:
                 link.write(block, len(pending))
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -75,6 +74,9 @@ class Publisher(Role, Generic[M]):
         """The encoded message that new subscribers get first, if latching."""
         self._publication = publication
         self._blocks = options.overflow == "block"
+        self._latches = options.latch
+        self._frame = _frame_encoder(message_class)
+        self._is_numbered = message_class._has_header
         self._seq = 0
 
     @property
@@ -198,27 +200,24 @@ class Publisher(Role, Generic[M]):
                 self._check_open()
 
     def _encode(self, msg: Any, fields: dict[str, Any]) -> Frame:
-        cls = self.message_class
-        if msg.__class__ is not cls or fields:
-            msg = message_from(cls, msg, fields, "msg")
-        if cls._has_header:
-            self._seq = (self._seq + 1) & 0xFFFFFFFF
-            with contextlib.suppress(AttributeError):  # no header: told by what encodes it
-                msg.header.seq = self._seq
-        if cls._has_bulk:
-            parts = cls._frame_parts(msg)
-            if len(parts) > 1:
-                return parts
-            return bytes(parts[0])  # nothing in it is large
-        return cls._frame(msg)
+        if fields or msg.__class__ is not self.message_class:
+            msg = message_from(self.message_class, msg, fields, "msg")
+        if self._is_numbered:
+            self._seq = seq = (self._seq + 1) & 0xFFFFFFFF
+            try:
+                msg.header.seq = seq
+            except AttributeError:
+                pass  # no header: told by what encodes it
+        return self._frame(msg)
 
     def _send(self, frame: Frame) -> None:
+        size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
         stats = self.stats
         stats.messages += 1
-        stats.bytes += len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
-        if self.options.latch:
+        stats.bytes += size
+        if self._latches:
             self.latched = frame
-        self._publication.send(frame, self)
+        self._publication.send(frame, size, self)
 
     def _require_room(self) -> None:
         if not self._publication.has_room(self):
@@ -233,3 +232,16 @@ class Publisher(Role, Generic[M]):
 
     async def _close(self) -> None:
         await self._node._roles.close_publisher(self, self._publication)
+
+
+def _frame_encoder(cls: type[Message]) -> Callable[[Any], Frame]:
+    """What makes the frame of a message: in parts, where copying it would cost more."""
+    if not cls._has_bulk:
+        return cls._frame
+    in_parts = cls._frame_parts
+
+    def encode(message: Any) -> Frame:
+        parts = in_parts(message)
+        return parts if len(parts) > 1 else bytes(parts[0])
+
+    return encode
