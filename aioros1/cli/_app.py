@@ -19,4 +19,5 @@ def make_app() -> App:
     for kind in KINDS:
         app.command(make_noun(kind))
     app.command(stubs)
+    app.register_install_completion_command()
     return app
