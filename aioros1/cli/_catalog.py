@@ -12,31 +12,24 @@ if TYPE_CHECKING:
     from aioros1.idl.paths import Kind
     from aioros1.idl.store import MessageStore
 
-__all__ = ["all_types", "matching", "near_misses", "packages", "types_of"]
+__all__ = ["all_types", "matching", "near_misses", "packages"]
 
 _WILDCARD = re.compile(r"[*?\[]")
 # How like, from 0 to 1, a package and a type must at least be to be taken for another.
 _PACKAGE_LIKENESS, _TYPE_LIKENESS = 0.5, 0.7
 
 
-def types_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
-    """All types of a package, the messages that its actions consist of among them."""
-    from aioros1.idl.store import ACTION_SUFFIXES
-
-    found = set(store.types(package, kind))
-    if kind == "msg":
-        actions = store.types(package, "action")
-        found.update(f"{action}{suffix}" for action in actions for suffix in ACTION_SUFFIXES)
-    return sorted(found)
-
-
 def packages(store: MessageStore, kind: Kind) -> list[str]:
     """The packages that have types of the kind."""
+    from aioros1.idl.modules import types_of
+
     return [package for package in store.packages() if types_of(store, package, kind)]
 
 
 def all_types(store: MessageStore, kind: Kind) -> list[str]:
     """All types of the kind, as ``pkg/Type``."""
+    from aioros1.idl.modules import types_of
+
     return [name for package in store.packages() for name in types_of(store, package, kind)]
 
 

@@ -170,8 +170,10 @@ class _Commands:
         self, package: str, /, *, single_line: SingleLine = False, path: Paths = ()
     ) -> None:
         """List the types of a package."""
+        from aioros1.idl.modules import types_of
+
         store = _store(path)
-        names = _catalog.types_of(store, package, self.kind)
+        names = types_of(store, package, self.kind)
         if not names and package not in (known := store.packages()):
             raise MessageNotFoundError(
                 f"no package {package!r} with definitions; "

@@ -26,17 +26,24 @@ __all__ = [
     "names_of",
     "package_module",
     "package_names",
+    "types_of",
 ]
 
 
+def types_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
+    """All types of a package, sorted; the messages that its actions consist of among them."""
+    types = set(store.types(package, kind))
+    if kind == "msg":
+        actions = store.types(package, "action")
+        types |= {f"{action}{suffix}" for action in actions for suffix in ACTION_SUFFIXES}
+    return sorted(types)
+
+
 def names_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
-    """What the module of a package has, sorted: its types, and the messages they consist of."""
-    names = {name.partition("/")[2] for name in store.types(package, kind)}
+    """What the module of a package has, sorted: its types, and those of service messages."""
+    names = [name.partition("/")[2] for name in types_of(store, package, kind)]
     if kind == "srv":
-        names |= {f"{name}{suffix}" for name in names for suffix in ("Request", "Response")}
-    elif kind == "msg":
-        actions = [name.partition("/")[2] for name in store.types(package, "action")]
-        names |= {f"{name}{suffix}" for name in actions for suffix in ACTION_SUFFIXES}
+        names += [f"{name}{suffix}" for name in names for suffix in ("Request", "Response")]
     return sorted(names)
 
 
