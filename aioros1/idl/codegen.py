@@ -327,7 +327,10 @@ def encoder_source(
         total = " + ".join(sizes) if len(sizes) <= 50 else f"sum(({', '.join(sizes)}))"
         out.line(f"total = {encoder.constant - 4}" + (f" + {total}" if total else ""))
     if split:
-        out.line(f"return {out.use('collect')}(({''.join(f'{part}, ' for part in encoder.parts)}))")
+        parts = "".join(f"{part}, " for part in encoder.parts)
+        out.globals["BULK"] = values.BULK
+        out.line(f"if total < BULK: return [join(({parts}))]  # nothing in it is large")
+        out.line(f"return {out.use('collect')}(({parts}))")
     elif not encoder.parts:
         out.line("return b''")
     elif len(encoder.parts) == 1:
