@@ -23,11 +23,12 @@ from aioros1.errors import (
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.fields import message_from
 from aioros1.net.backoff import Backoff
-from aioros1.net.tcpros import Stream, connect, connection_info
+from aioros1.net.service_link import ServiceLink
+from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.role import Role
 from aioros1.waiting import deadline
 from aioros1.wire.handshake import ServiceClient, ServiceOffer
-from aioros1.wire.service import SUCCESS, ServiceFrameError, frame_length
+from aioros1.wire.service import ANSWER_HEAD, SUCCESS, ServiceFrameError
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
@@ -225,15 +226,10 @@ class ServiceCaller(Role, Generic[Q, A]):
             raise
 
     async def _exchange(self, connection: _Connection, frame: bytes) -> A:
-        stats, stream = connection.info.stats, connection.stream
+        stats, link = connection.info.stats, connection.link
         try:
-            await stream.write(frame, stall=self._node.timeouts.stall)
-            ok = await stream.read_exactly(1, patience=None)
-            prefix = await stream.read_exactly(4, patience=self._node.timeouts.stall)
-            length = frame_length(prefix, self._node.limits.message_bytes)
-            body = await stream.read_exactly(length, patience=self._node.timeouts.stall)
-        except asyncio.IncompleteReadError as error:
-            raise self._lost("the provider closed the connection before it answered") from error
+            await link.write(frame)
+            answer = await link.receive(patience=None)
         except (OSError, ServiceFrameError, TimeoutError) as error:
             raise self._lost(str(error) or type(error).__name__) from error
         finally:
@@ -241,12 +237,16 @@ class ServiceCaller(Role, Generic[Q, A]):
             stats.bytes += len(frame)
             self.stats.messages += 1
             self.stats.bytes += len(frame)
-        stats.bytes += length + 5
-        if ok != SUCCESS:
+        if answer is None:
+            raise self._lost("the provider closed the connection before it answered")
+        stats.bytes += len(answer)
+        if answer[:1] != SUCCESS:
             self.stats.errors += 1
-            raise ServiceError(body.decode("utf-8", "surrogateescape"))
+            raise ServiceError(answer[ANSWER_HEAD:].decode("utf-8", "surrogateescape"))
         try:
-            response: A = self.service_class._response_class._decode(body, 0, length)
+            response: A = self.service_class._response_class._decode(
+                answer, ANSWER_HEAD, len(answer)
+            )
         except DeserializationError as error:
             self.stats.errors += 1
             raise self._lost(f"the provider's answer cannot be read: {error}") from error
@@ -287,11 +287,22 @@ class ServiceCaller(Role, Generic[Q, A]):
                 await stream.receive_header(client, timeout=node.timeouts.handshake)
             except (OSError, TimeoutError) as error:
                 raise ServiceUnavailable(f"service {self.name}: {error}") from error
+            link = ServiceLink(
+                stream,
+                head=ANSWER_HEAD,
+                max_bytes=node.limits.message_bytes,
+                patience=node.timeouts.stall,
+                stall=node.timeouts.stall,
+            )
+            try:
+                link.data_received(await take_over(stream, link))
+            except OSError as error:
+                raise ServiceUnavailable(f"service {self.name}: {error}") from error
             self._check_open()
         except BaseException:
             stream.abort()
             raise
-        return self._opened(stream, client.header)
+        return self._opened(stream, link, client.header)
 
     def _address(self, uri: str) -> tuple[str, int]:
         try:
@@ -304,16 +315,16 @@ class ServiceCaller(Role, Generic[Q, A]):
             f"service {self.name}: the master gives {uri!r}, expected rosrpc://host:port"
         )
 
-    def _opened(self, stream: Stream, header: Mapping[str, str]) -> _Connection:
+    def _opened(self, stream: Stream, link: ServiceLink, header: Mapping[str, str]) -> _Connection:
         peer = header.get("callerid", stream.peer)
         info = connection_info(stream, self.name, "b", peer, header)
-        connection = _Connection(stream, info)
+        connection = _Connection(link, info)
         self._open.add(connection)
         self._node._emit(PeerConnected("service caller", self.name, info))
         return connection
 
     def _drop(self, connection: _Connection) -> None:
-        connection.stream.abort()
+        connection.link.abort()
         if connection is self._kept:
             self._kept = None
         if connection in self._open:
@@ -340,15 +351,14 @@ class ServiceCaller(Role, Generic[Q, A]):
 
 
 class _Connection:
-    __slots__ = ("info", "stream")
+    __slots__ = ("info", "link")
 
-    def __init__(self, stream: Stream, info: ConnectionInfo) -> None:
-        self.stream = stream
+    def __init__(self, link: ServiceLink, info: ConnectionInfo) -> None:
+        self.link = link
         self.info = info
 
     @property
     def is_dead(self) -> bool:
         """Whether the provider has closed its end, or sent what nobody asked for, which
         must not be taken for the answer to the next call."""
-        stream = self.stream
-        return stream.has_unread or stream.reader.at_eof() or stream.writer.is_closing()
+        return self.link.has_unread or self.link.is_over

@@ -18,12 +18,13 @@ from aioros1.errors import (
 )
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.fields import message_from
-from aioros1.net.tcpros import Stream, connection_info
+from aioros1.net.service_link import ServiceLink
+from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.registration import Registration
 from aioros1.role import Role
 from aioros1.waiting import Waiters
 from aioros1.wire.handshake import Server, ServiceOffer
-from aioros1.wire.service import SUCCESS, ServiceFrameError, encode_failure, frame_length
+from aioros1.wire.service import REQUEST_HEAD, SUCCESS, ServiceFrameError, encode_failure
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
@@ -128,7 +129,7 @@ class ServiceProvider(Role, Generic[Q, A]):
         self._unanswered: set[ServiceCall[Q, A]] = set()
         self._arrived = Waiters()
         self._served = Waiters()
-        self._connections: dict[Stream, ConnectionInfo] = {}
+        self._connections: dict[ServiceLink, ConnectionInfo] = {}
         self._slots = (
             contextlib.nullcontext()
             if options.max_concurrency is None
@@ -184,32 +185,42 @@ class ServiceProvider(Role, Generic[Q, A]):
         await stream.write(header, stall=self._node.timeouts.stall)
         if server.probe:
             return
+        node = self._node
+        link = ServiceLink(
+            stream,
+            head=REQUEST_HEAD,
+            max_bytes=node.limits.message_bytes,
+            patience=node.timeouts.handshake,
+            stall=node.timeouts.stall,
+        )
+        link.data_received(await take_over(stream, link))
         info = connection_info(stream, self.name, "b", server.caller_id, server.header)
-        self._connections[stream] = info
+        self._connections[link] = info
         self._node._emit(PeerConnected("service", self.name, info))
         reason = ""
         try:
-            while self._is_open and await self._serve_call(stream, server, info):
+            while self._is_open and await self._serve_call(link, server, info):
                 if not server.persistent:
                     break
         except (OSError, TimeoutError) as error:
             reason = str(error)
         finally:
-            del self._connections[stream]
+            del self._connections[link]
             self._served.wake()
             self._node._emit(PeerDisconnected("service", self.name, info, reason))
 
-    async def _serve_call(self, stream: Stream, server: Server, info: ConnectionInfo) -> bool:
+    async def _serve_call(self, link: ServiceLink, server: Server, info: ConnectionInfo) -> bool:
         """Answer one call. False when the connection is of no more use."""
-        body = await self._read_request(stream, server)
-        if body is None:
+        frame = await self._read_request(link, server)
+        if frame is None:
             return False
+        size = len(frame)
         info.stats.messages += 1
-        info.stats.bytes += len(body) + 4
-        self.bytes_received += len(body) + 4
+        info.stats.bytes += size
+        self.bytes_received += size
         readable = True
         try:
-            request = self.service_class._request_class._decode(body, 0, len(body))
+            request = self.service_class._request_class._decode(frame, REQUEST_HEAD, size)
         except DeserializationError as error:
             # The length said where it ends, but a caller that sends such requests and
             # one that lost its place look the same.
@@ -218,30 +229,26 @@ class ServiceProvider(Role, Generic[Q, A]):
         else:
             answer = await self._answer(request, server.header)
         self.stats.messages += 1
-        self.stats.bytes += len(body) + 4
+        self.stats.bytes += size
         self.bytes_sent += len(answer)
         if answer[0] == 0:
             self.stats.errors += 1
-        await stream.write(answer, stall=self._node.timeouts.stall)
+        await link.write(answer)
         return readable
 
-    async def _read_request(self, stream: Stream, server: Server) -> bytes | None:
+    async def _read_request(self, link: ServiceLink, server: Server) -> bytes | None:
         """The next request; None when no further one can be read."""
         node = self._node
         # A persistent connection may be idle for days. A caller that connected for one
         # call and does not make it is as stuck as one that stops within it.
         patience = None if server.persistent else node.timeouts.handshake
         try:
-            prefix = await stream.read_exactly(4, patience=patience)
-            length = frame_length(prefix, node.limits.message_bytes)
-            return await stream.read_exactly(length, patience=node.timeouts.handshake)
-        except asyncio.IncompleteReadError:
-            return None
+            return await link.receive(patience=patience)
         except ServiceFrameError as error:
             why = str(error)
         except TimeoutError:
             why = f"no whole request came in {node.timeouts.handshake} s"
-        await stream.write(encode_failure(f"bad request: {why}"), stall=node.timeouts.stall)
+        await link.write(encode_failure(f"bad request: {why}"))
         return None
 
     async def _answer(self, request: Any, header: Mapping[str, str]) -> bytes:
@@ -296,8 +303,8 @@ class ServiceProvider(Role, Generic[Q, A]):
     def _abort(self) -> None:
         super()._abort()
         self._arrived.wake()
-        for stream in self._connections:
-            stream.abort()
+        for link in self._connections:
+            link.abort()
 
     async def _close(self) -> None:
         """Let calls that are being worked on be answered, and no further ones begin."""
@@ -309,8 +316,8 @@ class ServiceProvider(Role, Generic[Q, A]):
 
     async def close_connections(self, timeout: float) -> None:
         """Close connections as they become idle, and after ``timeout`` seconds the rest."""
-        for stream in self._connections:
-            stream.stop_reading()
+        for link in self._connections:
+            link.stop_reading()
         try:
             async with asyncio.timeout(timeout):
                 while self._connections:
@@ -318,5 +325,5 @@ class ServiceProvider(Role, Generic[Q, A]):
         except TimeoutError:
             pass
         finally:
-            for stream in self._connections:
-                stream.abort()
+            for link in self._connections:
+                link.abort()

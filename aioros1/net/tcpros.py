@@ -1,8 +1,8 @@
 """TCPROS connections on asyncio streams: made, accepted, and handed to a protocol.
 
-Streams carry the handshake. The data phase of a topic then takes the transport over
-with a protocol of its own (:func:`take_over`): reading messages one by one through a
-``StreamReader`` costs three to five times as much.
+Streams carry the handshake. The data phase then takes the transport over with a protocol
+of its own (:func:`take_over`): reading messages one by one through a ``StreamReader`` costs
+three to five times as much.
 """
 
 from __future__ import annotations
@@ -22,10 +22,6 @@ __all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
 # Seconds idle, seconds between probes, probes: what roscpp sets on every connection,
 # so that a peer that lost its power is noticed at all.
 _KEEPALIVE = (60, 10, 9)
-
-
-_PIECE = 64 * 1024
-"""Bytes that are read in one go, and so at the most believed to be there."""
 
 
 class Side(Protocol):
@@ -77,27 +73,6 @@ class Stream:
                 f"{self.peer}: connection lost in the handshake: {error}"
             ) from error
 
-    async def read_exactly(self, count: int, *, patience: float | None) -> bytes:
-        """``count`` bytes, with ``patience`` seconds for each piece of 64 KiB.
-
-        The memory used grows with the bytes that came. Raises
-        :class:`asyncio.IncompleteReadError` when the other side closes,
-        :class:`TimeoutError`, and :class:`OSError` when the connection is lost.
-        """
-        if count <= _PIECE:
-            async with asyncio.timeout(patience):
-                return await self.reader.readexactly(count)
-        pieces: list[bytes] = []
-        missing = count
-        while missing:
-            async with asyncio.timeout(patience):
-                piece = await self.reader.read(min(missing, _PIECE))
-            if not piece:
-                raise asyncio.IncompleteReadError(b"".join(pieces), count)
-            pieces.append(piece)
-            missing -= len(piece)
-        return b"".join(pieces)
-
     async def write(self, data: bytes, *, stall: float) -> None:
         """Write, and wait until the other side has taken enough of it.
 
@@ -113,17 +88,6 @@ class Stream:
             except TimeoutError:
                 if transport.get_write_buffer_size() >= left:
                     raise TimeoutError(f"{self.peer} took nothing for {stall} s") from None
-
-    @property
-    def has_unread(self) -> bool:
-        """Whether bytes have come that nobody has read."""
-        # A StreamReader has no public way to ask; reading without waiting needs the same.
-        return bool(self.reader._buffer)  # type: ignore[attr-defined]
-
-    def stop_reading(self) -> None:
-        """Make whoever reads see the end, as if the other side had closed."""
-        self.transport.pause_reading()
-        self.reader.feed_eof()
 
     async def close(self) -> None:
         """Send what was written, then close."""

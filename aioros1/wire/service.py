@@ -9,7 +9,20 @@ from __future__ import annotations
 
 import struct
 
-__all__ = ["FAILURE", "SUCCESS", "ServiceFrameError", "encode_failure", "frame_length"]
+__all__ = [
+    "ANSWER_HEAD",
+    "FAILURE",
+    "REQUEST_HEAD",
+    "SUCCESS",
+    "ServiceFrameError",
+    "encode_failure",
+    "frame_length",
+]
+
+REQUEST_HEAD = 4
+"""Bytes before a request: its length."""
+ANSWER_HEAD = 5
+"""Bytes before a response, or the text of an error: success or failure, and the length."""
 
 SUCCESS = b"\x01"
 FAILURE = b"\x00"
@@ -21,7 +34,7 @@ class ServiceFrameError(ValueError):
     """A request or an answer beyond the limit."""
 
 
-def frame_length(prefix: bytes, max_bytes: int) -> int:
+def frame_length(prefix: bytes | bytearray, max_bytes: int) -> int:
     """The length that the four bytes ``prefix`` announce; refuses more than ``max_bytes``."""
     (length,) = _U32.unpack(prefix)
     if length > max_bytes:

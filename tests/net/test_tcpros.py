@@ -6,8 +6,7 @@ import asyncio
 import contextlib
 import socket
 import struct
-import tracemalloc
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 
 import pytest
 
@@ -18,33 +17,13 @@ from aioros1.options import Limits
 from aioros1.wire.handshake import Server
 from aioros1.wire.header import encode_header
 
+from .sockets import drop, say
+
 HEADER = encode_header({"callerid": "/x", "md5sum": "*", "topic": "/chatter"})
 
 
 def server_side() -> Server:
     return Server("peer", max_bytes=1000, max_fields=10)
-
-
-@pytest.fixture
-async def pair() -> AsyncIterator[tuple[Stream, socket.socket]]:
-    """A stream, and the bare socket at its other end."""
-    ours, theirs = socket.socketpair(socket.AF_UNIX)
-    theirs.setblocking(False)
-    stream = Stream(*await asyncio.open_connection(sock=ours))
-    yield stream, theirs
-    theirs.close()
-    await drop(stream)
-
-
-async def drop(*streams: Stream) -> None:
-    for stream in streams:
-        stream.abort()
-    for _ in range(5):  # event loops close things in a later turn
-        await asyncio.sleep(0)
-
-
-async def say(sock: socket.socket, data: bytes) -> None:
-    await asyncio.get_running_loop().sock_sendall(sock, data)
 
 
 # the handshake
@@ -101,61 +80,7 @@ async def test_a_cancelled_handshake_is_a_cancellation(pair):
         await receiving
 
 
-# reading and writing
-
-
-@pytest.mark.parametrize("count", [0, 1, 65_535, 65_536, 65_537, 1_000_000])
-async def test_as_many_bytes_as_asked_for_are_read(pair, count):
-    stream, peer = pair
-    data = bytes(range(256)) * (count // 256 + 1)
-    saying = asyncio.create_task(say(peer, data[:count] + b"rest"))
-    assert await stream.read_exactly(count, patience=5) == data[:count]
-    assert await stream.read_exactly(4, patience=None) == b"rest"
-    await saying
-
-
-@pytest.mark.parametrize("count", [100, 200_000])
-async def test_an_end_in_the_middle_of_what_is_read(pair, count):
-    stream, peer = pair
-    await say(peer, b"only this")
-    peer.close()
-    with pytest.raises(asyncio.IncompleteReadError) as caught:
-        await stream.read_exactly(count, patience=5)
-    assert caught.value.partial == b"only this"
-    assert caught.value.expected == count
-
-
-@pytest.mark.parametrize("count", [100, 200_000])
-async def test_what_does_not_come_is_not_waited_for(pair, count):
-    stream, peer = pair
-    await say(peer, b"only this")
-    with pytest.raises(TimeoutError):
-        await stream.read_exactly(count, patience=0.05)
-
-
-async def test_patience_with_something_large_is_for_the_next_piece_of_it(pair):
-    stream, peer = pair
-
-    async def trickle() -> None:
-        for _ in range(10):
-            await say(peer, bytes(20_000))
-            await asyncio.sleep(0.03)
-
-    trickling = asyncio.create_task(trickle())
-    assert len(await stream.read_exactly(200_000, patience=0.2)) == 200_000
-    await trickling
-
-
-async def test_memory_is_not_taken_on_the_word_of_a_length(pair):
-    stream, peer = pair
-    await say(peer, bytes(50_000))
-    tracemalloc.start()
-    try:
-        with pytest.raises(TimeoutError):
-            await stream.read_exactly(900_000_000, patience=0.05)
-        assert tracemalloc.get_traced_memory()[1] < 5_000_000
-    finally:
-        tracemalloc.stop()
+# writing
 
 
 async def test_writing_to_a_peer_that_takes_nothing_is_given_up(pair):
@@ -184,27 +109,7 @@ async def test_what_was_written_is_sent_before_the_stream_closes(pair):
     assert await asyncio.get_running_loop().sock_recv(peer, 100) == b""
 
 
-async def test_whoever_reads_sees_the_end_when_reading_is_stopped(pair):
-    stream, peer = pair
-    reading = asyncio.create_task(stream.read_exactly(4, patience=None))
-    await asyncio.sleep(0.01)
-    stream.stop_reading()
-    with pytest.raises(asyncio.IncompleteReadError):
-        await reading
-    await stream.write(b"but it can still be written to", stall=1)
-    assert (await asyncio.get_running_loop().sock_recv(peer, 100)).startswith(b"but")
-
-
 # connecting
-
-
-@pytest.fixture
-def listening() -> Iterator[socket.socket]:
-    with socket.socket() as sock:
-        sock.bind(("127.0.0.1", 0))
-        sock.listen()
-        sock.setblocking(False)
-        yield sock
 
 
 async def test_connecting_sets_what_roscpp_sets(listening):

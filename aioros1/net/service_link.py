@@ -1,0 +1,204 @@
+"""The data phase of service connections: requests one way, answers the other.
+
+Streams carry the handshake, and then the transport is taken over, as for topics: a
+``StreamReader`` wakes its reader for the length and again for the rest, and each of these
+waits would have a timeout of its own. Here, what came is looked at where it arrives, one
+future is resolved for a whole frame, and the clock runs only while half a frame is there.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from typing import cast
+
+from aioros1.net.tcpros import Stream
+from aioros1.wire.service import ServiceFrameError, frame_length
+
+__all__ = ["ServiceLink"]
+
+_AHEAD = 64 * 1024
+"""Bytes that are read before anybody wants them."""
+
+
+class ServiceLink(asyncio.Protocol):
+    """One side of a service connection, which takes the frames of the other, one by one.
+
+    ``head`` is the number of bytes up to the end of a frame's length: 4 of a request, 5 of
+    an answer. The memory used grows with the bytes that came, not with what a length says.
+    ``patience`` is how many seconds may pass without a byte while a frame is incomplete,
+    ``stall`` how many while nothing is taken of what was written.
+    """
+
+    def __init__(
+        self, stream: Stream, *, head: int, max_bytes: int, patience: float, stall: float
+    ) -> None:
+        self.peer = stream.peer
+        self._stream = stream  # a StreamWriter that is collected closes its transport
+        self._head = head
+        self._max_bytes = max_bytes
+        self._patience = patience
+        self._stall = stall
+        self._transport: asyncio.Transport = stream.transport
+        self._buffer = bytearray()
+        self._wanted = 0  # bytes of the frame in the buffer, once its length is there
+        self._receiver: asyncio.Future[bytes | None] | None = None
+        self._timer: asyncio.TimerHandle | None = None
+        self._is_paused = False
+        self._has_ended = False
+        self._failure: Exception | None = None
+        self._writable: asyncio.Future[None] | None = None
+
+    # asyncio.Protocol
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._transport = cast("asyncio.Transport", transport)
+
+    def data_received(self, data: bytes) -> None:
+        """Take bytes, also those that came behind the connection header."""
+        receiver = self._receiver
+        if receiver is None or receiver.done():
+            self._buffer += data
+            if len(self._buffer) > _AHEAD and not self._is_paused:
+                self._is_paused = True
+                self._transport.pause_reading()
+            return
+        try:
+            if not self._buffer and self._size_of(data) == len(data):
+                receiver.set_result(data)  # which is how small ones come: no copy
+                return
+            self._buffer += data
+            frame = self._next()
+        except ServiceFrameError as error:
+            receiver.set_exception(error)
+            return
+        if frame is not None:
+            receiver.set_result(frame)
+        else:
+            self._set_timer(self._patience)
+
+    def eof_received(self) -> bool:
+        self._end()
+        return True  # it may still want to have its answer
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._failure = exc
+        self._end()
+        if self._writable is not None and not self._writable.done():
+            self._writable.set_result(None)
+
+    def pause_writing(self) -> None:
+        self._writable = asyncio.get_running_loop().create_future()
+
+    def resume_writing(self) -> None:
+        if self._writable is not None and not self._writable.done():
+            self._writable.set_result(None)
+        self._writable = None
+
+    # for roles
+
+    @property
+    def has_unread(self) -> bool:
+        """Whether bytes have come that nobody has asked for."""
+        return bool(self._buffer)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the other side has closed its end, or we have closed ours."""
+        return self._has_ended or self._transport.is_closing()
+
+    async def receive(self, *, patience: float | None) -> bytes | None:
+        """The next frame with its head; None when the connection ends before.
+
+        ``patience`` is how many seconds its first byte may take. Raises
+        :class:`TimeoutError`, :class:`OSError` when the connection fails, and
+        :class:`~aioros1.wire.service.ServiceFrameError` for a frame beyond the limit.
+        """
+        frame = self._next()
+        if frame is not None:
+            return frame
+        if self._failure is not None:
+            raise self._failure
+        if self._has_ended:
+            return None
+        if self._is_paused:
+            self._is_paused = False
+            self._transport.resume_reading()
+        self._receiver = asyncio.get_running_loop().create_future()
+        self._set_timer(self._patience if self._buffer else patience)
+        try:
+            return await self._receiver
+        finally:
+            self._receiver = None
+            self._set_timer(None)
+
+    async def write(self, data: bytes) -> None:
+        """Write, and wait until the other side has taken enough of it.
+
+        Raises :class:`TimeoutError` when it takes nothing, and :class:`OSError` when the
+        connection is lost.
+        """
+        if self._transport.is_closing():
+            raise self._failure or ConnectionResetError(f"{self.peer}: connection lost")
+        self._transport.write(data)
+        while self._writable is not None:
+            left = self._transport.get_write_buffer_size()
+            await asyncio.wait((self._writable,), timeout=self._stall)
+            if self._transport.is_closing():
+                raise self._failure or ConnectionResetError(f"{self.peer}: connection lost")
+            if self._writable is not None and self._transport.get_write_buffer_size() >= left:
+                raise TimeoutError(f"{self.peer} took nothing for {self._stall} s")
+
+    def stop_reading(self) -> None:
+        """Let whoever receives see the end, as if the other side had closed."""
+        self._transport.pause_reading()
+        self._end()
+
+    def abort(self) -> None:
+        """Close at once; what was written may be lost."""
+        self._transport.abort()
+
+    # frames
+
+    def _size_of(self, data: bytes | bytearray) -> int:
+        """The bytes of the frame that ``data`` begins with; 0 if its length is not there yet."""
+        head = self._head
+        if len(data) < head:
+            return 0
+        return head + frame_length(data[head - 4 : head], self._max_bytes)
+
+    def _next(self) -> bytes | None:
+        """Take the first frame of the buffer, if it is whole."""
+        buffer = self._buffer
+        if not self._wanted:
+            self._wanted = self._size_of(buffer)
+        size = self._wanted
+        if not size or len(buffer) < size:
+            return None
+        self._wanted = 0
+        with memoryview(buffer) as view:
+            frame = bytes(view[:size])
+        del buffer[:size]
+        return frame
+
+    # waiting
+
+    def _end(self) -> None:
+        self._has_ended = True
+        receiver = self._receiver
+        if receiver is not None and not receiver.done():
+            if self._failure is not None:
+                receiver.set_exception(self._failure)
+            else:
+                receiver.set_result(None)
+
+    def _set_timer(self, seconds: float | None) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        if seconds is not None:
+            loop = asyncio.get_running_loop()
+            self._timer = loop.call_later(seconds, self._expired, seconds)
+
+    def _expired(self, seconds: float) -> None:
+        if self._receiver is not None and not self._receiver.done():
+            self._receiver.set_exception(TimeoutError(f"{self.peer} sent nothing for {seconds} s"))
