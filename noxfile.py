@@ -72,9 +72,9 @@ def package(session: nox.Session) -> None:
 
 @nox.session
 def bench(session: nox.Session) -> None:
-    """The benchmarks, beside the real programs where they are installed."""
+    """The benchmarks, beside the real programs: ``nox -s bench -- topics latency --runs 5``."""
     session.install(".[uvloop]")
-    session.run("python", "benchmarks/topics.py", *session.posargs)
+    session.run("python", "benchmarks/run.py", *session.posargs)
 
 
 @nox.session

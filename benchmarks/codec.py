@@ -1,6 +1,6 @@
 """Messages to bytes and back: beside genpy and the package rosbags, in one process.
 
-    python benchmarks/codec.py [--varied] [--rounds N] [--json FILE] [--only ROW ...]
+    python benchmarks/codec.py [--varied] [--rounds N] [--json FILE] [--only ROW ...] [--alone]
 
 Each library turns the same messages into the same bytes, and the bytes into messages of
 its own, by what it offers its users: ``to_bytes`` and ``from_bytes`` here, ``serialize``
@@ -25,7 +25,7 @@ import platform
 import statistics
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -66,6 +66,14 @@ class Row:
 
 
 def main() -> None:
+    options = parse()
+    rows = run(options)
+    if options.json:
+        options.json.write_text(json.dumps([vars(row) for row in rows], indent=1))
+
+
+def parse(words: Sequence[str] | None = None) -> argparse.Namespace:
+    """The options of a command line; this program's own without ``words``."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
@@ -73,14 +81,20 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=25, help="measurements of each figure")
     parser.add_argument("--json", type=Path, help="write all results to this file")
     parser.add_argument("--only", nargs="+", choices=TYPES, help="only these rows")
-    options = parser.parse_args()
-    libraries = [ours(), *filter(None, (genpy(), rosbags()))]
+    parser.add_argument("--alone", action="store_true", help="without the other libraries")
+    return parser.parse_args(words)
+
+
+def run(options: argparse.Namespace) -> list[Row]:
+    """Measure, and print the table."""
+    libraries = [ours()]
+    if not options.alone:
+        libraries += filter(None, (genpy(), rosbags()))
     rows = [measure(name, libraries, options) for name in options.only or TYPES]
     large = [row.name for row in rows if row.size >= 1 << 20]
     rows += [measure(name + VIEWS, libraries, options) for name in large]
     print_table(rows, libraries, options)
-    if options.json:
-        options.json.write_text(json.dumps([vars(row) for row in rows], indent=1))
+    return rows
 
 
 # -- the libraries -------------------------------------------------------------------

@@ -1,58 +1,155 @@
-"""One side of the topic benchmark, with rospy: ``pub`` or ``sub``, count, size.
+"""One side of a benchmark, with rospy: ``MODE name=value ...``, as every peer here.
 
-The publisher has no queue: rospy then writes to the socket in ``publish``, which is the
-faster of its two ways by far, and loses nothing.
+Publishers have no queue: rospy then writes to the socket in ``publish``, which is the
+faster of its two ways by far, and loses nothing. What comes back is answered where it
+arrives, in the callback, which spares rospy the way to another thread.
 """
 
-import json
 import sys
 import threading
 import time
 
 import rospy
+from geometry_msgs.msg import TransformStamped
+from measures import cpu, report, report_times
+from sensor_msgs.msg import Image, JointState, PointCloud2
 from std_msgs.msg import String
+from std_srvs.srv import SetBool, SetBoolResponse
 
 TOPIC = "benchmark"
 IDLE = 3.0  # seconds without a message after which the rest is taken as lost
+TYPES = {cls.__name__: cls for cls in (Image, JointState, PointCloud2, String, TransformStamped)}
 
 
-def publish(count, size):
-    pub = rospy.Publisher(TOPIC, String, queue_size=None)
-    while not pub.get_num_connections():
+def make_message(options):
+    kind, size = options["kind"], int(options.get("size", 0))
+    message = TYPES[kind]()
+    if kind == "String":
+        message.data = "x" * size
+    elif kind == "JointState":
+        message.header.frame_id = "base_link"
+        message.name = [f"joint_{i}" for i in range(6)]
+        message.position = message.velocity = message.effort = [0.5] * 6
+    elif kind == "TransformStamped":
+        message.header.frame_id, message.child_frame_id = "odom", "base_link"
+        message.transform.rotation.w = 1.0
+    else:
+        message.header.frame_id = "camera"
+        message.data = bytes(size)
+    return message
+
+
+def pub(options):
+    message = make_message(options)
+    count, rate = int(options["count"]), int(options.get("rate", 0))
+    pub = rospy.Publisher(TOPIC, type(message), queue_size=None)
+    while pub.get_num_connections() < int(options.get("links", 1)):
         time.sleep(0.01)
-    message = String(data="x" * size)
-    for _ in range(count):
-        pub.publish(message)
+    used, start = cpu(), time.perf_counter()
+    if rate:
+        pace = rospy.Rate(rate)
+        for _ in range(count):
+            pub.publish(message)
+            pace.sleep()
+    else:
+        for _ in range(count):
+            pub.publish(message)
+    used, seconds = cpu() - used, time.perf_counter() - start
     while pub.get_num_connections():
         time.sleep(0.01)
+    report(cpu=used, seconds=seconds)
 
 
-def subscribe(count):
+def sub(options):
+    total = int(options["count"]) * int(options.get("subscribers", 1))
     done = threading.Event()
-    state = {"received": 0, "first": 0.0, "last": 0.0}
+    state = {"received": 0, "first": 0.0, "last": 0.0, "used": 0.0}
 
     def callback(_):
         now = time.perf_counter()
         if not state["received"]:
             state["first"] = now
+            state["used"] = cpu()
         state["received"] += 1
         state["last"] = now
-        if state["received"] == count:
+        if state["received"] == total:
             done.set()
 
-    rospy.Subscriber(TOPIC, String, callback)
+    for _ in range(int(options.get("subscribers", 1))):
+        rospy.Subscriber(TOPIC, TYPES[options["kind"]], callback)
+    report(ready=1)
     while not done.wait(0.2):
         if state["received"] and time.perf_counter() - state["last"] > IDLE:
             break
-    seconds = state["last"] - state["first"]
-    print(json.dumps({"received": state["received"], "seconds": seconds}), flush=True)
+    report(
+        received=state["received"],
+        seconds=state["last"] - state["first"],
+        cpu=cpu() - state["used"],
+    )
 
+
+def ping(options):
+    message = make_message(options)
+    count = int(options["count"])
+    done = threading.Event()
+    times = []
+    state = {"start": 0.0}
+
+    def callback(_):
+        now = time.perf_counter()
+        times.append(now - state["start"])
+        if len(times) == count + count // 10:
+            done.set()
+            return
+        state["start"] = time.perf_counter()
+        pub.publish(message)
+
+    pub = rospy.Publisher("ping", type(message), queue_size=None, tcp_nodelay=True)
+    sub = rospy.Subscriber("pong", type(message), callback, tcp_nodelay=True)
+    while not (pub.get_num_connections() and sub.get_num_connections()):
+        time.sleep(0.01)
+    time.sleep(0.2)  # so that the other side has seen both connections as well
+    state["start"] = time.perf_counter()
+    pub.publish(message)
+    done.wait()
+    report_times(times[count // 10 :])
+
+
+def pong(options):
+    cls = TYPES[options["kind"]]
+    pub = rospy.Publisher("pong", cls, queue_size=None, tcp_nodelay=True)
+    rospy.Subscriber("ping", cls, pub.publish, tcp_nodelay=True)
+    threading.Event().wait()
+
+
+def serve(options):
+    rospy.Service("flip", SetBool, lambda request: SetBoolResponse(request.data, "ok"))
+    threading.Event().wait()
+
+
+def call(options):
+    count = int(options["count"])
+    times = []
+    rospy.wait_for_service("flip")
+    proxy = rospy.ServiceProxy("flip", SetBool, persistent=options["persistent"] == "1")
+    for _ in range(count + count // 10):
+        start = time.perf_counter()
+        reply = proxy(True)
+        times.append(time.perf_counter() - start)
+    assert reply.success
+    report_times(times[count // 10 :])
+
+
+def idle(options):
+    rospy.Publisher("out", String, queue_size=10)
+    rospy.Subscriber("in", String)
+    report(ready=1)
+    threading.Event().wait()
+
+
+MODES = {mode.__name__: mode for mode in (pub, sub, ping, pong, serve, call, idle)}
 
 if __name__ == "__main__":
-    role, count, size = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
-    rospy.init_node("bench_" + role, disable_signals=True)
-    if role == "pub":
-        publish(count, size)
-    else:
-        subscribe(count)
+    rospy.init_node(sys.argv[1], disable_signals=True)
+    MODES[sys.argv[1]](dict(word.split("=", 1) for word in sys.argv[2:]))
     rospy.signal_shutdown("done")
