@@ -128,10 +128,15 @@ class Publisher(Role, Generic[M]):
         """
         if not self._is_open:
             raise self._closed_error()
+        publication = self._publication
+        if not publication.collects:
+            publication.begin()
         frame = self._encode(msg, fields)
-        if self._blocks and self._publication.is_congested:
+        if self._blocks and publication.is_congested:
             self._require_room()
-        self._send(frame)
+        if self._latches:
+            self.latched = frame
+        publication.send(frame, self)
 
     def publish_raw(self, buffer: bytes | bytearray | memoryview) -> None:
         """Publish a message that is serialised already; it is not looked into.
@@ -141,7 +146,11 @@ class Publisher(Role, Generic[M]):
         self._check_open()
         if self._blocks:
             self._require_room()
-        self._send(frame_parts(buffer, join=JOIN))
+        self._publication.begin()
+        frame = frame_parts(buffer, join=JOIN)
+        if self._latches:
+            self.latched = frame
+        self._publication.send(frame, self)
 
     async def send(
         self,
@@ -166,8 +175,13 @@ class Publisher(Role, Generic[M]):
             await self._wait_until(
                 lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
             )
-        self._send(self._encode(msg, fields))
-        if publication.turn_is_full or not publication.subscriber_count:
+        if not publication.collects:
+            publication.begin()
+        frame = self._encode(msg, fields)
+        if self._latches:
+            self.latched = frame
+        publication.send(frame, self)
+        if publication.gives_way:
             await asyncio.sleep(0)
 
     async def drain(self, *, timeout: float | None = None) -> None:
@@ -209,15 +223,6 @@ class Publisher(Role, Generic[M]):
             except AttributeError:
                 pass  # no header: told by what encodes it
         return self._frame(msg)
-
-    def _send(self, frame: Frame) -> None:
-        size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
-        stats = self.stats
-        stats.messages += 1
-        stats.bytes += size
-        if self._latches:
-            self.latched = frame
-        self._publication.send(frame, size, self)
 
     def _require_room(self) -> None:
         if not self._publication.has_room(self):

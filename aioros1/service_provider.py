@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
-import inspect
 from collections import deque
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeAlias, TypeVar
 
-from aioros1.errors import (
-    ClosedError,
-    DeserializationError,
-    SerializationError,
-    ServiceError,
-)
+from aioros1.errors import ClosedError, ServiceError
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.fields import message_from
 from aioros1.net.service_link import ServiceLink
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.registration import Registration
 from aioros1.role import Role
+from aioros1.serving import Serving
 from aioros1.waiting import Waiters
 from aioros1.wire.handshake import Server, ServiceOffer
-from aioros1.wire.service import REQUEST_HEAD, SUCCESS, ServiceFrameError, encode_failure
+from aioros1.wire.service import REQUEST_HEAD
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
@@ -124,17 +118,16 @@ class ServiceProvider(Role, Generic[Q, A]):
         self.options = options
         self.service_class = service_class
         self.registration = Registration("service", name, self._register, self._unregister)
-        self._handler = handler
+        self.handler = handler
         self._calls: deque[ServiceCall[Q, A]] = deque()
         self._unanswered: set[ServiceCall[Q, A]] = set()
         self._arrived = Waiters()
         self._served = Waiters()
         self._connections: dict[ServiceLink, ConnectionInfo] = {}
-        self._slots = (
-            contextlib.nullcontext()
-            if options.max_concurrency is None
-            else asyncio.Semaphore(options.max_concurrency)
+        self.slots = (
+            None if options.max_concurrency is None else asyncio.Semaphore(options.max_concurrency)
         )
+        """What calls of the handler have to get hold of, if their number is bounded."""
         self.bytes_received = 0
         self.bytes_sent = 0
 
@@ -166,7 +159,7 @@ class ServiceProvider(Role, Generic[Q, A]):
     # without a handler
 
     def __aiter__(self) -> Self:
-        if self._handler is not None:
+        if self.handler is not None:
             raise TypeError(f"service {self.name} has a handler, which takes all calls")
         return self
 
@@ -193,15 +186,15 @@ class ServiceProvider(Role, Generic[Q, A]):
             patience=node.timeouts.handshake,
             stall=node.timeouts.stall,
         )
-        link.data_received(await take_over(stream, link))
+        rest = await take_over(stream, link)
+        if rest:
+            link.data_received(rest)
         info = connection_info(stream, self.name, "b", server.caller_id, server.header)
         self._connections[link] = info
         self._node._emit(PeerConnected("service", self.name, info))
         reason = ""
         try:
-            while self._is_open and await self._serve_call(link, server, info):
-                if not server.persistent:
-                    break
+            await Serving(self, link, server, info).run()
         except (OSError, TimeoutError) as error:
             reason = str(error)
         finally:
@@ -209,70 +202,8 @@ class ServiceProvider(Role, Generic[Q, A]):
             self._served.wake()
             self._node._emit(PeerDisconnected("service", self.name, info, reason))
 
-    async def _serve_call(self, link: ServiceLink, server: Server, info: ConnectionInfo) -> bool:
-        """Answer one call. False when the connection is of no more use."""
-        frame = await self._read_request(link, server)
-        if frame is None:
-            return False
-        size = len(frame)
-        info.stats.messages += 1
-        info.stats.bytes += size
-        self.bytes_received += size
-        readable = True
-        try:
-            request = self.service_class._request_class._decode(frame, REQUEST_HEAD, size)
-        except DeserializationError as error:
-            # The length said where it ends, but a caller that sends such requests and
-            # one that lost its place look the same.
-            answer = encode_failure(f"bad request: {error}")
-            readable = False
-        else:
-            answer = await self._answer(request, server.header)
-        self.stats.messages += 1
-        self.stats.bytes += size
-        self.bytes_sent += len(answer)
-        if answer[0] == 0:
-            self.stats.errors += 1
-        await link.write(answer)
-        return readable
-
-    async def _read_request(self, link: ServiceLink, server: Server) -> bytes | None:
-        """The next request; None when no further one can be read."""
-        node = self._node
-        # A persistent connection may be idle for days. A caller that connected for one
-        # call and does not make it is as stuck as one that stops within it.
-        patience = None if server.persistent else node.timeouts.handshake
-        try:
-            return await link.receive(patience=patience)
-        except ServiceFrameError as error:
-            why = str(error)
-        except TimeoutError:
-            why = f"no whole request came in {node.timeouts.handshake} s"
-        await link.write(encode_failure(f"bad request: {why}"))
-        return None
-
-    async def _answer(self, request: Any, header: Mapping[str, str]) -> bytes:
-        response_class = self.service_class._response_class
-        async with self._slots:
-            try:
-                if self._handler is None:
-                    frame = await self._deferred(request, header)
-                else:
-                    result = self._handler(request)
-                    if inspect.isawaitable(result):
-                        result = await result
-                    frame = response_class._frame(message_from(response_class, result, {}))
-            except ServiceError as error:
-                return encode_failure(error.text)
-            except SerializationError as error:
-                self._node.log.exception("service %s: bad response", self.name)
-                return encode_failure(f"the service made a bad response: {error}")
-            except Exception as error:  # whatever the handler raises is for the caller
-                self._node.log.exception("service %s: the handler failed", self.name)
-                return encode_failure(str(error) or type(error).__name__)
-        return SUCCESS + frame
-
-    async def _deferred(self, request: Any, header: Mapping[str, str]) -> bytes:
+    async def defer(self, request: Any, header: Mapping[str, str]) -> bytes:
+        """Leave a call to whoever iterates the provider; the response, as a frame."""
         if not self._is_open:
             raise ServiceError("the service is shut down")
         call: ServiceCall[Q, A] = ServiceCall(request, header, self.service_class._response_class)

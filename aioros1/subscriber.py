@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -195,27 +194,33 @@ class Subscriber(Role, Generic[M]):
         Raises :class:`TimeoutError` after ``timeout`` seconds, and
         :class:`~aioros1.ClosedError`. Nothing is lost when it is cancelled.
         """
-        with contextlib.suppress(asyncio.QueueEmpty):
-            return self.get_nowait()
-        async with deadline(timeout, f"subscriber {self.name}: no message came"):
-            while True:
-                await self._arrived.wait()
-                with contextlib.suppress(asyncio.QueueEmpty):
-                    return self.get_nowait()
-
-    def get_nowait(self) -> M:
-        """The next message. Raises :class:`asyncio.QueueEmpty` if none has come."""
-        self._check_open()
+        if timeout is not None:
+            async with deadline(timeout, f"subscriber {self.name}: no message came"):
+                return await self.get()
         while True:
+            self._check_open()
             item = self._take()
             if item is None:
-                raise asyncio.QueueEmpty(f"subscriber {self.name}: no message has come")
+                await self._arrived.wait()
+                continue
             try:
                 message: M = self._decode(item)
             except DeserializationError as error:
                 self._skip(error)
             else:
                 return message
+
+    def get_nowait(self) -> M:
+        """The next message. Raises :class:`asyncio.QueueEmpty` if none has come."""
+        self._check_open()
+        while (item := self._take()) is not None:
+            try:
+                message: M = self._decode(item)
+            except DeserializationError as error:
+                self._skip(error)
+            else:
+                return message
+        raise asyncio.QueueEmpty(f"subscriber {self.name}: no message has come")
 
     def events(self) -> _Events[M]:
         """Iterate as the subscriber itself does, over :class:`MessageEvent`."""
@@ -293,8 +298,6 @@ class Subscriber(Role, Generic[M]):
             link.pause()
             self._backlog.append((link, frames, 0))
             self._refill()
-        if self._arrived:
-            self._arrived.wake()
 
     def _refill(self) -> None:
         """Move what waits into the queue, and read on from connections that are done."""

@@ -4,14 +4,17 @@ Streams carry the handshake, and then the transport is taken over, as for topics
 ``StreamReader`` wakes its reader for the length and again for the rest, and each of these
 waits would have a timeout of its own. Here, what came is looked at where it arrives, one
 future is resolved for a whole frame, and the clock runs only while half a frame is there.
+Whoever waits for it goes on at once (:class:`~aioros1.waiting.Waiter`).
 """
 
 from __future__ import annotations
 
 import asyncio
-from typing import cast
+from collections.abc import Callable
+from typing import Any, cast
 
 from aioros1.net.tcpros import Stream
+from aioros1.waiting import Waiter
 from aioros1.wire.service import ServiceFrameError, frame_length
 
 __all__ = ["ServiceLink"]
@@ -39,9 +42,13 @@ class ServiceLink(asyncio.Protocol):
         self._patience = patience
         self._stall = stall
         self._transport: asyncio.Transport = stream.transport
+        self._loop = asyncio.get_running_loop()
         self._buffer = bytearray()
         self._wanted = 0  # bytes of the frame in the buffer, once its length is there
-        self._receiver: asyncio.Future[bytes | None] | None = None
+        self._receiver: Waiter[Any] | None = None
+        self.at_once: Callable[[bytes], Any] | None = None
+        """Is given each frame that is waited for, as long as what is written is taken. What
+        it returns :meth:`receive` returns in place of the frame; with None it waits on."""
         self._timer: asyncio.TimerHandle | None = None
         self._is_paused = False
         self._has_ended = False
@@ -64,17 +71,23 @@ class ServiceLink(asyncio.Protocol):
             return
         try:
             if not self._buffer and self._size_of(data) == len(data):
-                receiver.set_result(data)  # which is how small ones come: no copy
-                return
-            self._buffer += data
-            frame = self._next()
+                frame: bytes | None = data  # which is how small ones come: no copy
+            else:
+                self._buffer += data
+                frame = self._next()
         except ServiceFrameError as error:
             receiver.set_exception(error)
             return
-        if frame is not None:
-            receiver.set_result(frame)
-        else:
+        if frame is None:
             self._set_timer(self._patience)
+            return
+        if self._timer is not None:
+            self._set_timer(None)
+        # Last, for whoever waits runs now.
+        if self.at_once is None or self._buffer or self._writable is not None:
+            receiver.resume(frame)
+        elif (result := self.at_once(frame)) is not None:
+            receiver.resume(result)
 
     def eof_received(self) -> bool:
         self._end()
@@ -87,7 +100,7 @@ class ServiceLink(asyncio.Protocol):
             self._writable.set_result(None)
 
     def pause_writing(self) -> None:
-        self._writable = asyncio.get_running_loop().create_future()
+        self._writable = self._loop.create_future()
 
     def resume_writing(self) -> None:
         if self._writable is not None and not self._writable.done():
@@ -97,24 +110,24 @@ class ServiceLink(asyncio.Protocol):
     # for roles
 
     @property
-    def has_unread(self) -> bool:
-        """Whether bytes have come that nobody has asked for."""
-        return bool(self._buffer)
+    def is_full(self) -> bool:
+        """Whether the other side does not take what is written as quickly as it comes."""
+        return self._writable is not None
 
     @property
-    def is_over(self) -> bool:
-        """Whether the other side has closed its end, or we have closed ours."""
-        return self._has_ended or self._transport.is_closing()
+    def is_fresh(self) -> bool:
+        """Whether the next bytes to come can only be the answer to the next request: neither
+        end is closed, and nothing has come that nobody has asked for."""
+        return not (self._buffer or self._has_ended or self._transport.is_closing())
 
-    async def receive(self, *, patience: float | None) -> bytes | None:
+    async def receive(self, *, patience: float | None) -> Any:
         """The next frame with its head; None when the connection ends before.
 
         ``patience`` is how many seconds its first byte may take. Raises
         :class:`TimeoutError`, :class:`OSError` when the connection fails, and
         :class:`~aioros1.wire.service.ServiceFrameError` for a frame beyond the limit.
         """
-        frame = self._next()
-        if frame is not None:
+        if self._buffer and (frame := self._next()) is not None:
             return frame
         if self._failure is not None:
             raise self._failure
@@ -123,23 +136,30 @@ class ServiceLink(asyncio.Protocol):
         if self._is_paused:
             self._is_paused = False
             self._transport.resume_reading()
-        self._receiver = asyncio.get_running_loop().create_future()
+        self._receiver = Waiter(loop=self._loop)
         self._set_timer(self._patience if self._buffer else patience)
         try:
             return await self._receiver
         finally:
             self._receiver = None
-            self._set_timer(None)
+            if self._timer is not None:
+                self._set_timer(None)
 
-    async def write(self, data: bytes) -> None:
-        """Write, and wait until the other side has taken enough of it.
+    def write(self, data: bytes) -> None:
+        """Write; :meth:`drain` has to follow where :attr:`is_full`.
 
-        Raises :class:`TimeoutError` when it takes nothing, and :class:`OSError` when the
-        connection is lost.
+        Raises :class:`OSError` when the connection is lost.
         """
         if self._transport.is_closing():
             raise self._failure or ConnectionResetError(f"{self.peer}: connection lost")
         self._transport.write(data)
+
+    async def drain(self) -> None:
+        """Wait until the other side has taken enough of what was written.
+
+        Raises :class:`TimeoutError` when it takes nothing, and :class:`OSError` when the
+        connection is lost.
+        """
         while self._writable is not None:
             left = self._transport.get_write_buffer_size()
             await asyncio.wait((self._writable,), timeout=self._stall)
@@ -196,8 +216,7 @@ class ServiceLink(asyncio.Protocol):
             self._timer.cancel()
             self._timer = None
         if seconds is not None:
-            loop = asyncio.get_running_loop()
-            self._timer = loop.call_later(seconds, self._expired, seconds)
+            self._timer = self._loop.call_later(seconds, self._expired, seconds)
 
     def _expired(self, seconds: float) -> None:
         if self._receiver is not None and not self._receiver.done():

@@ -89,6 +89,9 @@ class IncomingLink(asyncio.BufferedProtocol):
         return Batch(data, self, self._clock())
 
     def frames(self, frames: list[Received]) -> None:
+        stats, receiver = self.info.stats, self._receiver
+        stats.bytes = receiver.bytes_received
+        stats.messages = receiver.frames_received
         self._deliver(frames)
 
     # asyncio.BufferedProtocol
@@ -100,7 +103,10 @@ class IncomingLink(asyncio.BufferedProtocol):
         return self._receiver.buffer()
 
     def buffer_updated(self, nbytes: int) -> None:
-        self._guarded(self._receiver.received, nbytes)
+        try:
+            self._receiver.received(nbytes)
+        except FrameError as error:
+            self._refuse(error)
 
     def connection_lost(self, exc: Exception | None) -> None:
         if exc is not None and self.failure is None:
@@ -112,7 +118,10 @@ class IncomingLink(asyncio.BufferedProtocol):
 
     def feed(self, data: bytes) -> None:
         """Take bytes that came behind the connection header."""
-        self._guarded(self._receiver.feed, data)
+        try:
+            self._receiver.feed(data)
+        except FrameError as error:
+            self._refuse(error)
 
     def pause(self) -> None:
         self._pauses += 1
@@ -134,15 +143,9 @@ class IncomingLink(asyncio.BufferedProtocol):
         seen, self._seen = self._seen, self._receiver.bytes_received
         return self._pauses > 0 or seen != self._seen
 
-    def _guarded(self, take: Callable[[Any], None], argument: object) -> None:
-        try:
-            take(argument)
-        except FrameError as error:
-            self.failure = str(error)
-            self.abort()
-        stats, receiver = self.info.stats, self._receiver
-        stats.bytes = receiver.bytes_received
-        stats.messages = receiver.frames_received
+    def _refuse(self, error: FrameError) -> None:
+        self.failure = str(error)
+        self.abort()
 
 
 class LinkOwner(Protocol):

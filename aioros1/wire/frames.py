@@ -15,7 +15,10 @@ a gigabyte and sends nothing costs nothing.
 from __future__ import annotations
 
 import struct
+from itertools import repeat
 from typing import Any, Protocol
+
+from aioros1.wire.allocation import keep_memory
 
 __all__ = ["DIRECT", "READ", "FrameError", "FrameReceiver", "FrameSink", "frame_parts"]
 
@@ -26,6 +29,9 @@ DIRECT = 4 * 1024
 """A frame with more than this still to come gets memory of its own. Less is kept and
 put in front of the next read: small, so that a peer that sends byte by byte makes us
 copy little, and that a read of many small messages is not cut short for one of them."""
+
+_MANY = 1024
+"""Bytes from which on it is worth a look whether all frames in them are of one length."""
 
 _FIRST_GUESS = 1 << 20
 """Bytes reserved at first for a frame of its own, when no frame as large was seen yet."""
@@ -122,13 +128,19 @@ class FrameReceiver:
         """
         self.bytes_received += count
         if self._large is None:
-            self._cut(bytes(self._scratch[:count]))
+            data = bytes(self._scratch[:count])
+            if self._tail or count < 4 or _unpack(data)[0] + 4 != count or count > self._max_bytes:
+                self._cut(data)
+            else:  # one message alone: what comes now and then comes like that
+                self.frames_received += 1
+                self._sink.frames([(self._sink.batch(data), 4, count)])
             return
         self._filled += count
         if self._filled == self._wanted:
             whole = memoryview(self._large).toreadonly()
             self._large = self._view = None
             self._largest = max(self._largest, self._wanted)
+            keep_memory(self._wanted)
             self.frames_received += 1
             self._sink.frames([(self._sink.batch(whole), 0, self._wanted)])
 
@@ -146,27 +158,30 @@ class FrameReceiver:
             data = self._tail + data
             self._tail = b""
         batch = self._sink.batch(data)
-        frames: list[tuple[Any, int, int]] = []
-        add = frames.append
         limit = self._max_bytes
-        position, end = 0, len(data)
-        try:
-            while end - position >= 4:
-                start = position + 4
-                length = _unpack(data, position)[0]
-                if length > limit:
-                    raise FrameError(f"a message of {length} bytes, more than {limit}")
-                stop = start + length
-                if stop > end:
-                    self._keep(data, start, length)
-                    return
-                add((batch, start, stop))
-                position = stop
+        frames, position = _uniform(data, batch, limit) if len(data) >= _MANY else ([], 0)
+        add, end = frames.append, len(data)
+        failure = None
+        while end - position >= 4:
+            start = position + 4
+            length = _unpack(data, position)[0]
+            if length > limit:
+                failure = FrameError(f"a message of {length} bytes, more than {limit}")
+                break
+            stop = start + length
+            if stop > end:
+                self._keep(data, start, length)
+                break
+            add((batch, start, stop))
+            position = stop
+        else:
             self._tail = data[position:]
-        finally:
-            if frames:
-                self.frames_received += len(frames)
-                self._sink.frames(frames)
+        # Last, for with them the sink may do anything.
+        if frames:
+            self.frames_received += len(frames)
+            self._sink.frames(frames)
+        if failure is not None:
+            raise failure
 
     def _keep(self, data: bytes, start: int, length: int) -> None:
         """Keep what came of a frame whose end has not come yet."""
@@ -179,3 +194,25 @@ class FrameReceiver:
         self._large[:have] = memoryview(data)[start:]
         self._filled = have
         self._wanted = length
+
+
+def _uniform(data: bytes, batch: Any, limit: int) -> tuple[list[tuple[Any, int, int]], int]:
+    """The frames at the beginning of ``data`` if all there have the same length; and how far
+    they go.
+
+    The messages of a topic mostly have the same length. To compare the lengths of a whole
+    read at once, octet by octet, and to make the list without a loop takes 45 ns a frame;
+    the loop takes 90.
+    """
+    prefix = data[:4]
+    length = _unpack(prefix)[0]
+    stride = 4 + length
+    count = len(data) // stride
+    stop = count * stride
+    if count < 8 or length > limit:
+        return [], 0
+    for place in range(4):
+        if data[place:stop:stride] != prefix[place : place + 1] * count:
+            return [], 0
+    ends = range(stride, stop + 1, stride)
+    return list(zip(repeat(batch), range(4, stop, stride), ends, strict=False)), stop

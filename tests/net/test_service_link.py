@@ -30,6 +30,11 @@ async def make_link(stream: Stream, head: int = REQUEST_HEAD) -> ServiceLink:
     return link
 
 
+async def write(link: ServiceLink, data: bytes) -> None:
+    link.write(data)
+    await link.drain()
+
+
 @pytest.fixture
 async def linked(pair: tuple[Stream, socket.socket]) -> Pair:
     """The side of a provider, and the bare socket of a caller."""
@@ -44,7 +49,7 @@ async def test_frames_come_whole_whatever_their_size(linked: Pair, count: int) -
     saying = asyncio.create_task(say(peer, frame + frame + request(b"rest")))
     for expected in (frame, frame, request(b"rest")):
         assert await link.receive(patience=5) == expected
-    assert not link.has_unread
+    assert link.is_fresh
     await saying
 
 
@@ -83,9 +88,9 @@ async def test_the_end_between_frames_and_inside_one(linked: Pair) -> None:
     peer.shutdown(socket.SHUT_WR)
     assert await link.receive(patience=5) == request(b"abc")
     assert await link.receive(patience=5) is None
-    assert link.is_over
+    assert not link.is_fresh
     # It has closed its own direction only, and still gets its answer.
-    await link.write(b"answer")
+    await write(link, b"answer")
     assert await hear(peer) == b"answer"
 
 
@@ -143,7 +148,7 @@ async def test_what_nobody_asks_for_is_not_read_without_end(linked: Pair) -> Non
     link, peer = linked
     flood = asyncio.create_task(say(peer, request(b"x" * 1000) * 5000))
     async with asyncio.timeout(5):
-        while not link.has_unread:
+        while link.is_fresh:
             await asyncio.sleep(0)
     for _ in range(100):
         await asyncio.sleep(0)
@@ -167,12 +172,12 @@ async def test_a_cancelled_wait_leaves_the_frame_to_the_next(linked: Pair) -> No
 async def test_a_peer_that_takes_nothing_is_given_up(linked: Pair) -> None:
     link, _ = linked
     with pytest.raises(TimeoutError, match=r"took nothing for 0\.2 s"):
-        await link.write(bytes(5_000_000))
+        await write(link, bytes(5_000_000))
 
 
 async def test_a_peer_that_is_slow_is_not_given_up(linked: Pair) -> None:
     link, peer = linked
-    writing = asyncio.create_task(link.write(bytes(3_000_000)))
+    writing = asyncio.create_task(write(link, bytes(3_000_000)))
     taken = 0
     while not writing.done():
         taken += len(await hear(peer))
@@ -183,7 +188,7 @@ async def test_a_peer_that_is_slow_is_not_given_up(linked: Pair) -> None:
 
 async def test_a_connection_that_is_lost_while_writing_or_waiting(linked: Pair) -> None:
     link, peer = linked
-    writing = asyncio.create_task(link.write(bytes(5_000_000)))
+    writing = asyncio.create_task(write(link, bytes(5_000_000)))
     receiving = asyncio.create_task(link.receive(patience=5))
     await asyncio.sleep(0)
     link.abort()
@@ -191,8 +196,8 @@ async def test_a_connection_that_is_lost_while_writing_or_waiting(linked: Pair) 
         await writing
     assert await receiving is None
     with pytest.raises(OSError, match="connection lost"):
-        await link.write(b"more")
-    assert link.is_over
+        await write(link, b"more")
+    assert not link.is_fresh
     peer.close()
 
 
@@ -202,7 +207,7 @@ async def test_whoever_receives_sees_the_end_when_reading_is_stopped(linked: Pai
     await asyncio.sleep(0)
     link.stop_reading()
     assert await receiving is None
-    await link.write(b"but it can still be written to")
+    await write(link, b"but it can still be written to")
     assert (await hear(peer)).startswith(b"but")
 
 
@@ -217,5 +222,38 @@ async def test_a_reset_is_an_error(listening: socket.socket) -> None:
     peer.close()
     with contextlib.suppress(OSError):  # a reset is an error or, to some systems, an end
         assert await receiving is None
-    assert link.is_over
+    assert not link.is_fresh
     await drop(stream)
+
+
+async def test_whoever_waits_for_a_frame_runs_before_the_next_turn(linked: Pair) -> None:
+    link, _ = linked
+    order = []
+
+    async def receive() -> None:
+        order.append(await link.receive(patience=None))
+
+    def arrive() -> None:
+        asyncio.get_running_loop().call_soon(order.append, "the next turn")
+        link.data_received(request(b"abc"))
+
+    receiving = asyncio.create_task(receive())
+    await asyncio.sleep(0)
+    asyncio.get_running_loop().call_soon(arrive)
+    await receiving
+    await asyncio.sleep(0)
+    assert order == [request(b"abc"), "the next turn"]
+
+
+async def test_frames_that_are_answered_at_once_need_nobody_to_receive_them(linked: Pair) -> None:
+    link, peer = linked
+    link.at_once = lambda frame: link.write(frame[4:])  # None: there is nothing left to do
+    receiving = asyncio.create_task(link.receive(patience=None))
+    await asyncio.sleep(0)
+    for body in (b"abc", b"def"):
+        await say(peer, request(body))
+        assert await hear(peer) == body
+    assert not receiving.done()
+    link.at_once = lambda frame: ("begun", frame)
+    await say(peer, request(b"ghi"))
+    assert await receiving == ("begun", request(b"ghi"))
