@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -28,6 +29,10 @@ _CALLER_ID = "/master"
 _MAX_PENDING = 10_000
 
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, 30.0
+
+# Nodes that are begun to be told in one turn of the loop. A topic may have hundreds of
+# subscribers; told all at once, they would keep everybody waiting who asks meanwhile.
+_PER_TURN = 2
 
 _Slot = tuple[type, str, str]
 """What a message is about: its kind, the topic or key, and the node for parameters."""
@@ -53,6 +58,8 @@ class Notifier:
         self._on_unwanted = on_unwanted
         self._queues: dict[str, dict[_Slot, Notification]] = {}
         self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._waiting: deque[str] = deque()  # those that have a queue, and no task yet
+        self._starter: asyncio.Task[None] | None = None
         self._closed = False
 
     def send(self, notifications: Iterable[Notification]) -> None:
@@ -61,7 +68,10 @@ class Notifier:
             return
         for message in notifications:
             api = message.api
-            queue = self._queues.setdefault(api, {})
+            queue = self._queues.get(api)
+            if queue is None:
+                queue = self._queues[api] = {}
+                self._waiting.append(api)
             slot = _slot(message)
             # To the end, not to the old place: what is queued between the two about a
             # namespace below or above would otherwise have the last word.
@@ -70,19 +80,33 @@ class Notifier:
             if len(queue) > _MAX_PENDING:
                 del queue[next(iter(queue))]
                 _LOG.warning("%s takes no notifications; the oldest is dropped", api)
-            if api not in self._tasks:
-                self._tasks[api] = asyncio.create_task(
-                    self._work(api, queue), name=f"aioros1-master-notify {api}"
-                )
+        if self._waiting and self._starter is None:
+            self._starter = asyncio.create_task(self._start(), name="aioros1-master-notify")
 
     async def close(self) -> None:
         """Drop what is queued and what is being sent."""
         self._closed = True
         tasks = list(self._tasks.values())
+        if self._starter is not None:
+            tasks.append(self._starter)
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
         self._queues.clear()
+
+    async def _start(self) -> None:
+        """Give a task to every node that waits for one, a few at a time."""
+        try:
+            while self._waiting:
+                for _ in range(min(_PER_TURN, len(self._waiting))):
+                    api = self._waiting.popleft()
+                    work = self._work(api, self._queues[api])
+                    self._tasks[api] = asyncio.create_task(
+                        work, name=f"aioros1-master-notify {api}"
+                    )
+                await asyncio.sleep(0)
+        finally:
+            self._starter = None
 
     async def _work(self, api: str, queue: dict[_Slot, Notification]) -> None:
         pause = _FIRST_PAUSE

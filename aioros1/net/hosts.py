@@ -12,15 +12,8 @@ import ipaddress
 import os
 import socket
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
-
-from aiohttp.abc import AbstractResolver
-
-if TYPE_CHECKING:
-    from aiohttp.abc import ResolveResult
 
 __all__ = [
-    "HostResolver",
     "advertised_host",
     "bind_address_for",
     "bind_sockets",
@@ -55,30 +48,6 @@ async def resolve(host: str, port: int = 0) -> list[tuple[socket.AddressFamily, 
         if family in (socket.AF_INET, socket.AF_INET6):
             found[family, str(address[0])] = None
     return list(found)
-
-
-class HostResolver(AbstractResolver):
-    """:func:`resolve` for aiohttp."""
-
-    async def resolve(
-        self, host: str, port: int = 0, family: socket.AddressFamily = socket.AF_INET
-    ) -> list[ResolveResult]:
-        addresses = await resolve(host, port)
-        return [
-            {
-                "hostname": host,
-                "host": address,
-                "port": port,
-                "family": found,
-                "proto": 0,
-                "flags": socket.AI_NUMERICHOST,
-            }
-            for found, address in addresses
-            if family in (socket.AF_UNSPEC, found)
-        ]
-
-    async def close(self) -> None:
-        """Nothing is held."""
 
 
 def local_address_facing(remote: str) -> str:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import socket
 from typing import Any
 
 from aioros1.master import Master
+from aioros1.master.notifier import Notifier
+from aioros1.master.registry import PublisherUpdate
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
 
@@ -77,6 +80,37 @@ async def test_G10_nodes_that_hang_delay_nobody(master: Master, make_node: Any) 
     await client.close()
     for sock in silent:
         sock.close()
+
+
+async def test_hundreds_of_nodes_leave_time_for_others() -> None:
+    """Between any few of them the loop goes round, and the master can answer."""
+    told: list[str] = []
+
+    class Client:
+        async def call(self, uri: str, method: str, *params: Any) -> Any:
+            told.append(uri)
+            return [1, "", 0]
+
+    client: Any = Client()
+    notifier = Notifier(client, is_registered=lambda api: True, on_unwanted=lambda update: None)
+    apis = [f"http://n{number}:1/" for number in range(300)]
+    notifier.send(PublisherUpdate(api, "/t", []) for api in apis)
+    assert told == []
+    counts = [0]
+    while counts[-1] < len(apis):
+        await asyncio.sleep(0)
+        counts.append(len(told))
+    assert max(after - before for before, after in itertools.pairwise(counts)) < 10
+    assert sorted(told) == sorted(apis)
+    # Those that come while others wait are not forgotten.
+    notifier.send(PublisherUpdate(api, "/u", []) for api in apis)
+    await asyncio.sleep(0)
+    notifier.send([PublisherUpdate("http://late:1/", "/u", [])])
+    while len(told) <= 2 * len(apis):
+        await asyncio.sleep(0)
+    assert told[-1] == "http://late:1/"
+    notifier.send(PublisherUpdate(api, "/v", []) for api in apis)
+    await notifier.close()
 
 
 async def test_G10_a_node_that_hangs_gets_the_newest_list_and_only_that(

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from aioros1.net.hosts import (
-    HostResolver,
     advertised_host,
     bind_address_for,
     bind_sockets,
@@ -62,16 +61,6 @@ async def test_names_are_looked_up(monkeypatch: pytest.MonkeyPatch) -> None:
 async def test_what_is_no_name_is_an_os_error() -> None:
     with pytest.raises(OSError, match="not a host name"):
         await resolve("a" * 64 + ".example", 1)
-
-
-async def test_resolver_for_aiohttp() -> None:
-    resolver = HostResolver()
-    found = await resolver.resolve("localhost", 7, V4)
-    assert [(entry["host"], entry["port"], entry["family"]) for entry in found] == [
-        ("127.0.0.1", 7, V4)
-    ]
-    assert len(await resolver.resolve("localhost", 7, socket.AF_UNSPEC)) == 2
-    await resolver.close()
 
 
 def test_the_address_that_faces_another() -> None:

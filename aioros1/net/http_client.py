@@ -1,0 +1,309 @@
+"""HTTP requests on kept connections: as much of a client as XML-RPC needs.
+
+Written for the small calls between nodes and their master, which the session of aiohttp
+makes twice as expensive; docs/design/xmlrpc.md has the figures.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from functools import lru_cache
+from typing import NamedTuple, cast
+from urllib.parse import quote, urlsplit
+
+from aioros1.net.connecting import connect
+from aioros1.net.hosts import uri_host
+from aioros1.wire.http import AnswerReader, HttpError
+
+__all__ = ["HttpClient", "Server", "server_at"]
+
+PER_SERVER = 8
+"""Connections to one server. Enough for a node that registers many roles at once; few
+enough that a server with a thread per connection is not flooded."""
+
+IDLE = 15.0
+"""Seconds after which an idle connection is closed, or up to twice that."""
+
+# What is written in one piece. More is written as fast as the server takes it, so that it
+# is not all copied into the buffer of the transport.
+_PIECE = 256 << 10
+
+
+class Server(NamedTuple):
+    """Where requests go, and how each begins."""
+
+    host: str
+    port: int
+    head: bytes
+    """The head of a request, up to the length of its body."""
+
+
+@lru_cache(maxsize=1024)
+def server_at(uri: str) -> Server:
+    """What ``uri`` means. Raises :class:`ValueError` when it is not an HTTP URI."""
+    parts = urlsplit(uri)
+    host, port = parts.hostname, 80 if parts.port is None else parts.port
+    if parts.scheme != "http" or not host or not port:
+        raise ValueError(f"not an HTTP URI: {uri!r}")
+    if not host.isascii():
+        host = host.encode("idna").decode()
+    # As Python's own client does: no path means /RPC2. What is quoted is not ASCII, or
+    # would end the line that it is in.
+    path = quote(parts.path or "/RPC2", safe="/%:@!$&'()*+,;=~")
+    if parts.query:
+        path += "?" + quote(parts.query, safe="/%:@!$&'()*+,;=~?")
+    head = (
+        f"POST {path} HTTP/1.1\r\nHost: {uri_host(quote(host, safe=':%'))}:{port}\r\n"
+        "Content-Type: text/xml\r\nUser-Agent: aioros1\r\nContent-Length: "
+    )
+    return Server(host, port, head.encode())
+
+
+class HttpClient:
+    """Posts documents to servers, in one event loop."""
+
+    def __init__(self, *, max_bytes: int) -> None:
+        self._max_bytes = max_bytes
+        self._pools: dict[tuple[str, int], _Pool] = {}
+        self._open: set[_Connection] = set()
+        self._sweeper: asyncio.TimerHandle | None = None
+
+    async def post(self, server: Server, body: bytes) -> AnswerReader:
+        """The answer to ``body``. Raises
+
+        - :class:`ConnectionError` when there is no connection to be had,
+        - :class:`ConnectionResetError` when it is lost before the answer,
+        - :class:`.HttpError` when what is answered is not HTTP, or too much.
+        """
+        pool = self._pools.get(server[:2])
+        if pool is None:
+            pool = self._pools[server[:2]] = _Pool()
+            if self._sweeper is None:
+                self._sweeper = asyncio.get_running_loop().call_later(IDLE, self._sweep)
+        pool.users += 1
+        try:
+            async with pool.slots:
+                return await self._post(pool, server, body)
+        finally:
+            pool.users -= 1
+
+    async def close(self) -> None:
+        """Close every connection. No request may be in progress."""
+        if self._sweeper is not None:
+            self._sweeper.cancel()
+        for connection in self._open:
+            connection.abort()
+        while self._open:  # event loops close things in a later turn
+            await asyncio.sleep(0)
+        await asyncio.sleep(0)
+
+    async def _post(self, pool: _Pool, server: Server, body: bytes) -> AnswerReader:
+        lost: ConnectionResetError | None = None
+        answer = AnswerReader(max_bytes=self._max_bytes)
+        connection = pool.take()
+        if connection is not None:
+            try:
+                await connection.exchange(server.head, body, answer)
+            except ConnectionResetError as error:
+                # Perhaps the server closed the kept connection while the request was on
+                # its way. Then, and only then, it is sent once more, on a connection that
+                # is certainly new: the others that are kept may be as stale.
+                if answer.has_begun:
+                    raise
+                lost = error
+            else:
+                pool.put(connection)
+                return answer
+        try:
+            connection = await self._connect(pool, server)
+            await connection.exchange(server.head, body, answer)
+        except ConnectionError as error:
+            if lost is None:
+                raise
+            # It may have been received the first time, whatever happened now.
+            raise ConnectionResetError(str(error)) from lost
+        pool.put(connection)
+        return answer
+
+    async def _connect(self, pool: _Pool, server: Server) -> _Connection:
+        try:
+            _, connection = await connect(
+                lambda: _Connection(self._open, pool), server.host, server.port
+            )
+        except OSError as error:
+            raise ConnectionError(f"cannot connect: {error}") from error
+        # Not when it is made: uvloop does not tell the end of one whose connecting was
+        # cancelled at that moment, and close() would wait for it.
+        if not connection.is_closing:
+            self._open.add(connection)
+        return connection
+
+    def _sweep(self) -> None:
+        """Close what was idle for long, and forget servers that nobody asks any more."""
+        loop = asyncio.get_running_loop()
+        for address, pool in list(self._pools.items()):
+            pool.close_idle(loop.time() - IDLE)
+            if not pool.idle and not pool.users:
+                del self._pools[address]
+        self._sweeper = loop.call_later(IDLE, self._sweep) if self._pools else None
+
+
+class _Pool:
+    """The connections to one server."""
+
+    __slots__ = ("idle", "slots", "users")
+
+    def __init__(self) -> None:
+        self.idle: list[_Connection] = []
+        self.slots = asyncio.Semaphore(PER_SERVER)
+        self.users = 0  # requests in progress, and those that wait for a slot
+
+    def take(self) -> _Connection | None:
+        """The idle connection that was used last."""
+        while self.idle:
+            connection = self.idle.pop()
+            if connection.is_usable:
+                return connection
+        return None
+
+    def put(self, connection: _Connection) -> None:
+        """Keep a connection, if the server does."""
+        if connection.is_usable:
+            connection.idle_since = asyncio.get_running_loop().time()
+            self.idle.append(connection)
+        else:
+            connection.abort()
+
+    def close_idle(self, since: float) -> None:
+        for connection in self.idle:
+            if connection.idle_since <= since:
+                connection.abort()
+
+
+class _Connection(asyncio.Protocol):
+    """One request and answer after the other."""
+
+    __slots__ = (
+        "_answer",
+        "_failure",
+        "_is_paused",
+        "_keeps_alive",
+        "_open",
+        "_pool",
+        "_transport",
+        "_waiter",
+        "idle_since",
+    )
+
+    _transport: asyncio.Transport
+
+    def __init__(self, open_: set[_Connection], pool: _Pool) -> None:
+        self._open = open_
+        self._pool = pool
+        self._answer: AnswerReader | None = None  # while it is not complete
+        self._failure: Exception | None = None
+        self._waiter: asyncio.Future[None] | None = None
+        self._is_paused = False
+        self._keeps_alive = False
+        self.idle_since = 0.0
+
+    @property
+    def is_usable(self) -> bool:
+        """Whether another request may be sent."""
+        return self._keeps_alive and not self._transport.is_closing()
+
+    @property
+    def is_closing(self) -> bool:
+        """Whether it is closed, or about to be."""
+        return self._transport.is_closing()
+
+    async def exchange(self, head: bytes, body: bytes, answer: AnswerReader) -> None:
+        """Send a request, and wait until ``answer`` is complete.
+
+        Whatever this raises, the connection is closed then: half a request or half an
+        answer must never be before another.
+        """
+        self._answer = answer
+        self._failure = None
+        self._keeps_alive = False
+        try:
+            is_sent = await self._send(b"%b%d\r\n\r\n" % (head, len(body)), body)
+            while not self._is_over:
+                await self._wait()
+            if self._failure is not None:
+                raise self._failure
+            self._keeps_alive = is_sent and answer.keeps_alive
+        except BaseException:
+            self._answer = None
+            self.abort()
+            raise
+
+    def abort(self) -> None:
+        """Close at once."""
+        self._transport.abort()
+
+    async def _send(self, head: bytes, body: bytes) -> bool:
+        """Whether all was sent: a server may refuse a body before it has all of it."""
+        if len(body) <= _PIECE:
+            self._transport.write(head + body)
+            return True
+        self._transport.write(head)
+        view = memoryview(body)
+        for begin in range(0, len(view), _PIECE):
+            while self._is_paused and not self._is_over:
+                await self._wait()
+            if self._is_over:
+                return False
+            self._transport.write(view[begin : begin + _PIECE])
+        return True
+
+    @property
+    def _is_over(self) -> bool:
+        return self._answer is None
+
+    async def _wait(self) -> None:
+        self._waiter = asyncio.get_running_loop().create_future()
+        await self._waiter
+
+    def _wake(self) -> None:
+        if self._waiter is not None and not self._waiter.done():
+            self._waiter.set_result(None)
+
+    def _end(self, failure: Exception | None) -> None:
+        if self._answer is not None:
+            self._answer = None
+            self._failure = failure
+            self._wake()
+
+    # what the transport calls
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._transport = cast("asyncio.Transport", transport)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._open.discard(self)
+        if self in self._pool.idle:
+            self._pool.idle.remove(self)
+        self._is_paused = False
+        self._end(ConnectionResetError(f"connection lost: {exc or 'the server closed it'}"))
+
+    def data_received(self, data: bytes) -> None:
+        if self._answer is None:
+            self.abort()  # nobody has asked; perhaps it says why it closes
+            return
+        try:
+            if self._answer.receive_data(data):
+                self._end(None)
+        except HttpError as error:
+            self._end(error)
+
+    def eof_received(self) -> None:
+        if self._answer is not None and self._answer.receive_eof():
+            self._end(None)
+
+    def pause_writing(self) -> None:
+        self._is_paused = True
+
+    def resume_writing(self) -> None:
+        self._is_paused = False
+        self._wake()

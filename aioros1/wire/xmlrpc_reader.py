@@ -1,0 +1,198 @@
+"""Reading XML-RPC documents with expat: whatever may be in them, and whatever is wrong.
+
+Document type declarations are refused, nesting is bounded, and read without recursion.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NoReturn
+from xml.parsers import expat
+
+from aioros1.wire.xmlrpc_scalars import BLANK, SCALARS, XmlRpcError, brief
+
+__all__ = ["UNSET", "Document", "read_document"]
+
+UNSET: Any = object()
+"""No fault."""
+
+_PENDING: Any = object()
+
+
+def read_document(data: bytes, root: str, max_depth: int) -> Document:
+    """What is in ``<root>``. Raises :class:`XmlRpcError`."""
+    if not data:
+        raise XmlRpcError("the document is empty")
+    decoder = Document(root, max_depth)
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+    parser.StartElementHandler = decoder.start
+    parser.EndElementHandler = decoder.end
+    parser.CharacterDataHandler = decoder.text_append
+    parser.StartDoctypeDeclHandler = _refuse_doctype
+    parser.XmlDeclHandler = _refuse_encoding
+    try:
+        parser.Parse(data, True)
+    except XmlRpcError:
+        raise
+    except (expat.ExpatError, ValueError) as error:
+        raise XmlRpcError(f"not XML: {error}") from None
+    return decoder
+
+
+def _refuse_doctype(*_: object) -> NoReturn:
+    raise XmlRpcError("document type declarations are refused")
+
+
+# Those that expat knows. For any other it would ask Python, which imports a module by that
+# name, and never forgets a name that somebody came up with.
+_ENCODINGS = frozenset({"utf-8", "utf-16", "utf-16be", "utf-16le", "iso-8859-1", "us-ascii"})
+
+
+def _refuse_encoding(version: str, encoding: str | None, standalone: int) -> None:
+    if encoding is not None and encoding.lower() not in _ENCODINGS:
+        raise XmlRpcError(f"not an encoding for XML-RPC: {brief(encoding)}")
+
+
+# Which elements may be in which.
+_CHILDREN: dict[str, frozenset[str]] = {
+    "methodCall": frozenset({"methodName", "params"}),
+    "methodResponse": frozenset({"params", "fault"}),
+    "params": frozenset({"param"}),
+    "param": frozenset({"value"}),
+    "fault": frozenset({"value"}),
+    "value": frozenset({*SCALARS, "array", "struct"}),
+    "array": frozenset({"data"}),
+    "data": frozenset({"value"}),
+    "struct": frozenset({"member"}),
+    "member": frozenset({"name", "value"}),
+}
+_NOTHING: frozenset[str] = frozenset()
+
+
+class Document:
+    """Takes expat's events and builds values, with stacks of its own for the nesting."""
+
+    def __init__(self, root: str, max_depth: int) -> None:
+        self.method: str | None = None
+        self.params: list[Any] = []
+        self.fault: Any = UNSET
+        self._root = root
+        self._max_depth = max_depth
+        self._tags: list[str] = []
+        self._sections: set[str] = set()
+        self._closed_params = 0
+        self._text: list[str] = []
+        self.text_append = self._text.append
+        # One entry for each open <value>: what it holds so far.
+        self._values: list[Any] = []
+        # One for each open <data> or <struct>: the list or dict it fills.
+        self._containers: list[Any] = []
+        # One [name, value] for each open <member>.
+        self._members: list[list[Any]] = []
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        tags = self._tags
+        if not tags:
+            if tag != self._root:
+                raise XmlRpcError(f"expected a {self._root}, got a <{tag[:40]}>")
+        else:
+            parent = tags[-1]
+            if tag not in _CHILDREN.get(parent, _NOTHING):
+                self._fail(f"<{tag[:40]}> inside <{parent}>")
+            if tag == "value":
+                self._values.append(UNSET)
+            elif parent == "value":
+                if self._values[-1] is not UNSET or "".join(self._text).strip(BLANK):
+                    self._fail(f"<{tag}> beside another value")
+                if tag == "array":
+                    self._values[-1] = _PENDING
+                elif tag == "struct":
+                    self._open({})
+            elif tag == "member":
+                self._members.append([UNSET, UNSET])
+            elif tag == "data":
+                if self._values[-1] is not _PENDING:
+                    self._fail("an array with two data elements")
+                self._open([])
+            elif parent == self._root:
+                if tag in self._sections:
+                    self._fail(f"two {tag} elements")
+                self._sections.add(tag)
+        tags.append(tag)
+        self._text.clear()
+
+    def end(self, tag: str) -> None:
+        self._tags.pop()
+        if tag == "value":
+            value = self._values.pop()
+            if value is UNSET:
+                value = "".join(self._text)
+            elif self._text and "".join(self._text).strip(BLANK):
+                self._fail("text beside a value")
+            self._put(value)
+        elif (convert := SCALARS.get(tag)) is not None:
+            try:
+                self._values[-1] = convert("".join(self._text))
+            except ValueError as error:
+                self._fail(str(error))
+        elif tag == "name":
+            if self._members[-1][0] is not UNSET:
+                self._fail("a member with two names")
+            self._members[-1][0] = "".join(self._text)
+        elif tag == "member":
+            name, value = self._members[-1]
+            if name is UNSET or value is UNSET:
+                self._fail("a member without a " + ("name" if name is UNSET else "value"))
+            self._members.pop()
+            self._containers[-1][name] = value
+        elif tag in ("data", "struct"):
+            self._containers.pop()
+        elif tag == "array":
+            if self._values[-1] is _PENDING:
+                self._fail("an array without a data element")
+        elif tag == "param":
+            self._closed_params += 1
+            if len(self.params) != self._closed_params:
+                raise XmlRpcError(f"params[{self._closed_params - 1}]: a param has one value")
+        elif tag == "methodName":
+            self.method = "".join(self._text).strip(BLANK)
+        self._text.clear()
+
+    def _open(self, container: list[Any] | dict[str, Any]) -> None:
+        if len(self._containers) >= self._max_depth:
+            self._fail(f"more than {self._max_depth} arrays and structs inside one another")
+        self._values[-1] = container
+        self._containers.append(container)
+
+    def _put(self, value: Any) -> None:
+        parent = self._tags[-1]
+        if parent == "data":
+            self._containers[-1].append(value)
+        elif parent == "member":
+            if self._members[-1][1] is not UNSET:
+                self._fail("a member with two values")
+            self._members[-1][1] = value
+        elif parent == "param":
+            self.params.append(value)
+        elif self.fault is UNSET:
+            self.fault = value
+        else:
+            raise XmlRpcError("a fault with two values")
+
+    def _fail(self, text: str) -> NoReturn:
+        raise XmlRpcError(f"{self._place()}: {text}")
+
+    def _place(self) -> str:
+        if len(self._tags) < 3:
+            return self._root
+        if self._tags[1] == "fault":
+            place = "fault"
+        else:
+            place = f"params[{self._closed_params}]" if self._root == "methodCall" else "result"
+        members = iter(self._members)
+        for container in self._containers:
+            if isinstance(container, list):
+                place += f"[{len(container)}]"
+            elif (member := next(members, None)) is not None and member[0] is not UNSET:
+                place += f"[{brief(member[0])}]"
+        return place

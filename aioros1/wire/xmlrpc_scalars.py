@@ -1,0 +1,98 @@
+"""What both readers of XML-RPC documents have in common: scalars, and the error."""
+
+from __future__ import annotations
+
+import re
+from binascii import Error as Base64Error
+from binascii import a2b_base64
+from collections.abc import Callable
+from datetime import datetime
+from typing import Any, NoReturn
+
+__all__ = ["BLANK", "INT_MAX", "INT_MIN", "SCALARS", "XmlRpcError", "brief"]
+
+INT_MIN, INT_MAX = -(1 << 31), (1 << 31) - 1
+
+BLANK = " \t\r\n"
+"""White space, as XML has it."""
+
+
+class XmlRpcError(ValueError):
+    """What came in is not an XML-RPC document, or not one we accept."""
+
+
+def brief(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+_INTEGER = re.compile(r"[+-]?[0-9]+")
+_DATETIME = re.compile(r"([0-9]{4})-?([0-9]{2})-?([0-9]{2})T([0-9]{2}):([0-9]{2}):([0-9]{2})")
+
+
+def _to_int(text: str) -> int:
+    text = text.strip(BLANK)
+    if _INTEGER.fullmatch(text) is None:
+        raise ValueError(f"not an int: {brief(text)}")
+    value = int(text) if len(text) < 1000 else INT_MAX + 1
+    if not INT_MIN <= value <= INT_MAX:
+        raise ValueError(f"an XML-RPC int has 32 bits: {brief(text)}")
+    return value
+
+
+def _to_long(text: str) -> NoReturn:
+    # Python's own servers store an i8 and can never hand it out again.
+    raise ValueError(f"64-bit ints are not part of XML-RPC: {brief(text)}")
+
+
+def _to_bool(text: str) -> bool:
+    text = text.strip(BLANK)
+    if text not in ("0", "1"):
+        raise ValueError(f"not a boolean (0 or 1): {brief(text)}")
+    return text == "1"
+
+
+def _to_float(text: str) -> float:
+    try:
+        if "_" not in text:
+            return float(text)
+    except ValueError:
+        pass
+    raise ValueError(f"not a double: {brief(text)}")
+
+
+def _to_bytes(text: str) -> bytes:
+    try:
+        return a2b_base64("".join(text.split()), strict_mode=True)
+    except (Base64Error, ValueError):
+        raise ValueError(f"not base64: {brief(text)}") from None
+
+
+def _to_datetime(text: str) -> datetime:
+    match = _DATETIME.fullmatch(text.strip(BLANK))
+    try:
+        if match is not None:
+            year, month, day, hour, minute, second = map(int, match.groups())
+            return datetime(year, month, day, hour, minute, second)
+    except ValueError:
+        pass
+    raise ValueError(f"not a dateTime (19980717T14:08:55): {brief(text)}")
+
+
+def _to_nil(text: str) -> None:
+    if text.strip(BLANK):
+        raise ValueError(f"nil has no value: {brief(text)}")
+
+
+SCALARS: dict[str, Callable[[str], Any]] = {
+    "int": _to_int,
+    "i4": _to_int,
+    "i8": _to_long,
+    "boolean": _to_bool,
+    "double": _to_float,
+    "string": str,
+    "base64": _to_bytes,
+    "dateTime.iso8601": _to_datetime,
+    "nil": _to_nil,
+}
+"""From an element's text to its value, by the element. Each raises :class:`ValueError`."""
