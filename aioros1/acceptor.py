@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from aioros1.errors import HandshakeError
+from aioros1.net.local import LocalTransports
 from aioros1.net.tcpros import Listener, Stream, connection_info, take_over
 from aioros1.net.topic_links import OutgoingLink
 from aioros1.wire.handshake import Server
@@ -27,6 +28,8 @@ class Acceptor:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._listener = Listener(self._serve, node._spawn, limits=node.limits)
+        self.local = LocalTransports(node.options.local_transports, self._listener)
+        """How else than over TCP topics connect, on both sides."""
 
     @property
     def refused(self) -> int:
@@ -41,6 +44,7 @@ class Acceptor:
         await self._listener.start(host, port)
 
     def close(self) -> None:
+        self.local.close()
         self._listener.close()
 
     async def _serve(self, stream: Stream) -> None:

@@ -30,7 +30,7 @@ class ConnectionStats:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectionInfo:
-    """One TCPROS connection of a role, as it is now.
+    """One connection of a role, as it is now.
 
     ``stats`` goes on counting; everything else is fixed when the connection is made.
     """
@@ -48,17 +48,27 @@ class ConnectionInfo:
     """The caller id of the other side; of a publisher's side, the URI of its node."""
 
     local: tuple[str, int]
+    """Address and port on our side; ``("", 0)`` if it is not over TCP."""
+
     remote: tuple[str, int]
+    """The same on the other side."""
+
     fileno: int
+    """The file descriptor of the socket; -1 if there is none."""
+
     header: Mapping[str, str]
     """The connection header that the other side sent."""
 
     transport: str = "TCPROS"
+    """``TCPROS``, or ``UNIXROS`` or ``INTRAPROCESS`` between nodes of this library."""
+
     stats: ConnectionStats = field(default_factory=ConnectionStats)
 
     @property
     def description(self) -> str:
         """The text that ``rosnode info`` takes the port numbers from."""
+        if self.transport != "TCPROS":
+            return f"{self.transport} connection"
         return (
             f"{self.transport} connection on port {self.local[1]} to "
             f"[{self.remote[0]}:{self.remote[1]} on socket {self.fileno}]"

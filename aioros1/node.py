@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 import logging
 import os
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping, Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 from urllib.parse import urlsplit
@@ -24,7 +24,14 @@ from aioros1.master_proxy import MasterProxy
 from aioros1.net.hosts import bind_address_for, is_loopback, local_address_facing, resolve, uri_host
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
-from aioros1.options import Limits, NodeOptions, OnError, Timeouts
+from aioros1.options import (
+    LOCAL_TRANSPORTS,
+    Limits,
+    LocalTransport,
+    NodeOptions,
+    OnError,
+    Timeouts,
+)
 from aioros1.param_calls import ParamCalls
 from aioros1.peer import NodeProxy
 from aioros1.role import NodeStats, Role
@@ -66,6 +73,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     is how often, in seconds, the master is looked after, None for never. ``on_error``
     says what becomes of an exception in a timer's callback: ``"raise"`` closes the node
     and raises it where the node is used, ``"log"`` logs it, a function is called with it.
+    ``local_transports`` may name ``"intraprocess"`` and ``"unix"``: topics then go past TCP
+    between nodes of this library that are in one event loop, or on one Linux host, if both
+    sides name it.
 
     The constructor does no I/O. Raises :class:`~aioros1.InvalidNameError` and
     :class:`ValueError`.
@@ -92,6 +102,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         timeouts: Timeouts = Timeouts(),  # noqa: B008 - frozen
         limits: Limits = Limits(),  # noqa: B008 - frozen
         on_error: OnError = "raise",
+        local_transports: Collection[LocalTransport] = LOCAL_TRANSPORTS,
     ) -> None:
         super().__init__()
         self.options = NodeOptions(
@@ -111,6 +122,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             timeouts=timeouts,
             limits=limits,
             on_error=on_error,
+            local_transports=local_transports,
         )
         self.timeouts = timeouts
         self.limits = limits
@@ -273,7 +285,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
-        """All TCPROS connections, of topics, services and callers."""
+        """All connections, of topics, services and callers."""
         return self._roles.connections
 
     @property
@@ -399,6 +411,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             self._host = await self._facing_host()
         address = self.options.bind or bind_address_for(self._host)
         await self._acceptor.start(address, self.options.tcpros_port)
+        await self._acceptor.local.start()
         await self._server.start(address, self.options.xmlrpc_port)
         master_is_there = await self._heartbeat.greet()
         self._state = "open"

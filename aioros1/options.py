@@ -2,17 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-__all__ = ["Limits", "NodeOptions", "OnError", "Overflow", "Timeouts", "check_queue"]
+__all__ = [
+    "LOCAL_TRANSPORTS",
+    "Limits",
+    "LocalTransport",
+    "NodeOptions",
+    "OnError",
+    "Overflow",
+    "Timeouts",
+    "check_queue",
+]
 
 Overflow = Literal["drop_oldest", "drop_newest", "block"]
 """What happens to a message when a queue is full."""
 
 OnError = Literal["raise", "log"] | Callable[[Exception], object]
 """What becomes of an exception that a user's callback raises where nobody awaits it."""
+
+LocalTransport = Literal["intraprocess", "unix"]
+"""A way for messages between nodes of this library: within one event loop, within one host."""
+
+LOCAL_TRANSPORTS: tuple[LocalTransport, ...] = ()
+"""Those that a node uses which does not say."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,12 +98,18 @@ class NodeOptions:
     timeouts: Timeouts = Timeouts()
     limits: Limits = Limits()
     on_error: OnError = "raise"
+    local_transports: Collection[LocalTransport] = LOCAL_TRANSPORTS
 
     def __post_init__(self) -> None:
         if self.on_error not in ("raise", "log") and not callable(self.on_error):
             raise ValueError(f"on_error must be 'raise', 'log' or callable, got {self.on_error!r}")
         if self.heartbeat is not None and not self.heartbeat > 0:
             raise ValueError(f"heartbeat must be positive or None, got {self.heartbeat!r}")
+        known = get_args(LocalTransport)
+        named = self.local_transports
+        if isinstance(named, str) or any(each not in known for each in named):
+            choices = ", ".join(map(repr, known))
+            raise ValueError(f"local_transports must be some of {choices}, got {named!r}")
 
 
 def check_queue(queue_size: int, overflow: str) -> None:

@@ -139,6 +139,9 @@ class SlaveApi:
         # Others are passed over, whatever they look like: who asks for them may well
         # understand this one too.
         readable = [each for each in protocols if _is_protocol(each)]
+        local = self._node._acceptor.local.answer(readable)
+        if local is not None:
+            return [1, "ready", local]
         if any(protocol[0] == "TCPROS" for protocol in readable):
             host, port = self._node.tcpros_address
             return [1, "ready", ["TCPROS", host, port]]

@@ -172,11 +172,13 @@ class _Follower:
         self._link: IncomingLink | None = None
         self._stir = asyncio.Event()
         self._leaving = False
+        self._tries_local = True
         self._complaint = ""
 
     def stay(self) -> None:
         """The master lists the publisher, again perhaps: no reason to wait any longer."""
         self._leaving = False
+        self._tries_local = True
         self._stir.set()
 
     def leave(self) -> None:
@@ -209,24 +211,8 @@ class _Follower:
                 self._link.abort()
 
     async def _connect_and_receive(self, backoff: Backoff) -> None:
-        node, subscription = self._node, self._subscription
-        host, port = await self._request_topic()
-        stream = await connect(host, port, timeout=node.timeouts.connect)
-        try:
-            client = TopicClient(
-                stream.peer,
-                node.name,
-                subscription.wanted(),
-                tcp_nodelay=any(sub.options.tcp_nodelay for sub in subscription.subscribers),
-                max_bytes=node.limits.header_bytes,
-                max_fields=node.limits.header_fields,
-            )
-            stream.writer.write(client.data_to_send())
-            await stream.receive_header(client, timeout=node.timeouts.handshake)
-            link = self._link = await self._open_link(stream, client)
-        except BaseException:
-            stream.abort()
-            raise
+        subscription = self._subscription
+        link = await self._connect()
         loop = asyncio.get_running_loop()
         begin = loop.time()
         try:
@@ -245,15 +231,52 @@ class _Follower:
         if link.failure is not None:
             self._complain(link.failure)
 
-    async def _request_topic(self) -> tuple[str, int]:
+    async def _connect(self) -> IncomingLink:
+        """Connect as the publisher says; over TCP, if another way does not work."""
         node = self._node
-        peer = NodeProxy(node._xmlrpc, self._uri, node.name)
-        topic = self._subscription.name
-        answer = await peer.request_topic(topic, [["TCPROS"]])
+        local = node._acceptor.local
+        offers = local.offers() if self._tries_local else []
+        answer = await self._request_topic([["TCPROS"], *offers])
         match answer:
             case ["TCPROS", str(host), int(port), *_] if 0 < port < 65536:
-                return host, port
-        raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
+                return await self._shake_hands(
+                    await connect(host, port, timeout=node.timeouts.connect)
+                )
+        if not offers:
+            topic = self._subscription.name
+            raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
+        try:
+            return await self._shake_hands(await local.connect(answer))
+        except (OSError, TimeoutError) as error:
+            node.log.debug(
+                "subscriber %s: publisher at %s: %s; trying TCP",
+                *(self._subscription.name, self._uri, error),
+            )
+        self._tries_local = False
+        return await self._connect()
+
+    async def _request_topic(self, protocols: list[list[str]]) -> list[Any]:
+        peer = NodeProxy(self._node._xmlrpc, self._uri, self._node.name)
+        return await peer.request_topic(self._subscription.name, protocols)
+
+    async def _shake_hands(self, stream: Stream) -> IncomingLink:
+        node, subscription = self._node, self._subscription
+        try:
+            client = TopicClient(
+                stream.peer,
+                node.name,
+                subscription.wanted(),
+                tcp_nodelay=any(sub.options.tcp_nodelay for sub in subscription.subscribers),
+                max_bytes=node.limits.header_bytes,
+                max_fields=node.limits.header_fields,
+            )
+            stream.writer.write(client.data_to_send())
+            await stream.receive_header(client, timeout=node.timeouts.handshake)
+            link = self._link = await self._open_link(stream, client)
+        except BaseException:
+            stream.abort()
+            raise
+        return link
 
     async def _open_link(self, stream: Stream, client: TopicClient) -> IncomingLink:
         node, subscription = self._node, self._subscription
@@ -269,7 +292,7 @@ class _Follower:
         rest = await take_over(stream, link)
         subscription.link_opened(link)
         if rest:
-            link.feed(rest)
+            link.block_received(rest)
         return link
 
     async def _until_closed(self, link: IncomingLink) -> None:

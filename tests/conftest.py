@@ -69,9 +69,8 @@ def no_task_left(request: pytest.FixtureRequest) -> Iterator[None]:
 
 @pytest.fixture(autouse=True)
 def nothing_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
-    """The library makes no blocking call in the event loop, but to read definitions.
-
-    Each definition is read once, from a local disk, and is small.
+    """The library makes no blocking call in the event loop, but to read small files once:
+    definitions, from a local disk, and what the system says of itself, from its memory.
     """
     if not request.node.get_closest_marker("asyncio"):
         yield
@@ -80,6 +79,7 @@ def nothing_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
         for function in blockbuster.functions.values():
             function.can_block_in("aioros1/idl/store.py", {"_source"})
             function.can_block_in("aioros1/idl/paths.py", PATH_FUNCTIONS)
+            function.can_block_in("aioros1/net/local.py", {"_host_key"})
         yield
 
 

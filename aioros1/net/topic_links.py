@@ -114,14 +114,15 @@ class IncomingLink(asyncio.BufferedProtocol):
         self.is_closed = True
         self._on_closed()
 
-    # for the subscription
-
-    def feed(self, data: bytes) -> None:
-        """Take bytes that came behind the connection header."""
+    def block_received(self, data: bytes | memoryview) -> None:
+        """Take bytes that came behind the connection header, or from a transport that has
+        them in memory; they must not change."""
         try:
-            self._receiver.feed(data)
+            self._receiver.block(data)
         except FrameError as error:
             self._refuse(error)
+
+    # for the subscription
 
     def pause(self) -> None:
         self._pauses += 1

@@ -144,7 +144,16 @@ class FrameReceiver:
             self.frames_received += 1
             self._sink.frames([(self._sink.batch(whole), 0, self._wanted)])
 
-    def feed(self, data: bytes) -> None:
+    def block(self, data: bytes | memoryview) -> None:
+        """Take bytes that were received elsewhere, and will not change: without a copy,
+        where they are whole frames."""
+        if self._large is None and data.__class__ is bytes:
+            self.bytes_received += len(data)
+            self._cut(data)
+        else:
+            self.feed(data)
+
+    def feed(self, data: bytes | memoryview) -> None:
         """Take bytes that were received elsewhere, behind the connection header."""
         while data:
             room = self.buffer()

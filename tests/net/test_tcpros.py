@@ -91,7 +91,7 @@ async def test_writing_to_a_peer_that_takes_nothing_is_given_up(pair):
 
 async def test_writing_to_a_peer_that_is_slow_is_not_given_up(pair):
     stream, peer = pair
-    writing = asyncio.create_task(stream.write(bytes(3_000_000), stall=0.2))
+    writing = asyncio.create_task(stream.write(bytes(6_000_000), stall=0.2))
     taken = 0
     loop = asyncio.get_running_loop()
     while not writing.done():
