@@ -25,6 +25,7 @@ from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
 from aioros1.registration import Registration
 from aioros1.waiting import Waiters
+from aioros1.wire.allocation import keep_memory
 from aioros1.wire.handshake import TopicOffer
 
 if TYPE_CHECKING:
@@ -143,7 +144,10 @@ class Publication:
                 self._flush()
                 self._turn_is_full = self.gives_way = True
             return
-        stats.bytes += len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
+        size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
+        stats.bytes += size
+        if size >= JOIN:
+            keep_memory(size)  # for the next one to be encoded
         # Before anything else: a connection may fill up with what is sent here, and then
         # belongs to those for whom the frame is queued.
         self._flush()

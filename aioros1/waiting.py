@@ -118,17 +118,22 @@ class Waiters:
         if self._error is not None:
             raise self._error
 
-    async def wait(self) -> None:
-        """Wait for the next :meth:`wake`. Raises what :meth:`fail` was given."""
+    async def wait(self, seconds: float | None = None) -> None:
+        """Wait for the next :meth:`wake`, at most for ``seconds``. Raises what :meth:`fail`
+        was given."""
         if self._error is None:
             if self._loop is None:
                 self._loop = asyncio.get_running_loop()
             waiter: Waiter[None] = Waiter(loop=self._loop)
             self._waiters.add(waiter)
+            # No asyncio.timeout(), which cancels the task and takes that back: 5 µs.
+            timer = None if seconds is None else self._loop.call_later(seconds, _end, waiter)
             try:
                 await waiter
             finally:
                 self._waiters.discard(waiter)
+                if timer is not None:
+                    timer.cancel()
         if self._error is not None:
             raise self._error
 
@@ -144,6 +149,11 @@ class Waiters:
         async with deadline(timeout, what):
             while not predicate():
                 await self.wait()
+
+
+def _end(waiter: Waiter[None]) -> None:
+    if not waiter.done():
+        waiter.resume(None)
 
 
 class deadline:  # noqa: N801 - it is used as asyncio.timeout is
