@@ -70,10 +70,16 @@ def package(session: nox.Session) -> None:
     session.run(str(python), str(Path(__file__).parent / "tests" / "smoke.py"), external=True)
 
 
-@nox.session
+def python_of_ros() -> str | None:
+    """The interpreter that has rospy: only with the same one the two can be compared."""
+    debian = Path("/usr/bin/python3")
+    return str(debian) if Path("/usr/lib/python3/dist-packages/rospy").exists() else None
+
+
+@nox.session(python=python_of_ros())
 def bench(session: nox.Session) -> None:
     """The benchmarks, beside the real programs: ``nox -s bench -- topics latency --runs 5``."""
-    session.install(".[uvloop]")
+    session.install(".[bench]")
     session.run("python", "benchmarks/run.py", *session.posargs)
 
 

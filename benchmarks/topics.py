@@ -11,8 +11,9 @@ import argparse
 import json
 from pathlib import Path
 
-from common.report import as_json, machine, print_table
-from common.suite import run_suite
+from common.progress import Progress
+from common.suite import plan, run_suite
+from common.tables import as_json, machine, print_table
 from common.world import open_world
 from suites.topics import string_suite
 
@@ -27,7 +28,8 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write all results to this file")
     options = parser.parse_args()
     with open_world() as world:
-        results = run_suite(string_suite(options.size, options.count), world, options.runs)
+        results = plan(string_suite(options.size, options.count), world)
+        run_suite(results, world, options.runs, Progress(results.seconds(options.runs)))
     print_table(results)
     if options.json:
         written = {"machine": machine(quick=False), "suites": {"topics": as_json(results)}}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import socket
 import subprocess
 import threading
@@ -79,10 +80,20 @@ class Program:
         return figures
 
     def footprint(self) -> dict[str, float]:
-        """Memory (bytes) and number of threads at this moment; Linux only."""
-        lines = Path(f"/proc/{self.pid}/status").read_text().splitlines()
+        """Memory (bytes), threads and file descriptors at this moment; Linux only."""
+        process = Path(f"/proc/{self.pid}")
+        lines = (process / "status").read_text().splitlines()
         status = dict(line.split(":", 1) for line in lines)
-        return {"rss": int(status["VmRSS"].split()[0]) * 1024, "threads": int(status["Threads"])}
+        return {
+            "rss": int(status["VmRSS"].split()[0]) * 1024,
+            "threads": int(status["Threads"]),
+            "fds": len(os.listdir(process / "fd")),
+        }
+
+    def ask(self) -> dict[str, float]:
+        """What a program reports about itself when it gets SIGUSR1."""
+        os.kill(self.pid, signal.SIGUSR1)
+        return self.report()
 
     def end(self) -> None:
         """Make sure that it is gone."""

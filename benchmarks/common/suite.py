@@ -8,11 +8,13 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from common.contenders import CLIENTS, KEYS, Contender, Find
+from common.contenders import Contender, Find
+from common.known import CLIENTS, KEYS
 from common.processes import BenchmarkError
+from common.progress import Progress
 from common.world import World
 
-__all__ = ["Case", "Figure", "Results", "Row", "Suite", "run_suite"]
+__all__ = ["Case", "Figure", "Results", "Row", "Suite", "plan", "run_suite"]
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,7 @@ class Case:
     """What is measured: options for the suite, and who takes part.
 
     ``beside`` names a case with whose peers this one is compared; only this library runs it.
+    ``base`` names the smallest case of a series, with which its contender is compared.
     ``ratio`` is the figure of which the ratios are.
     """
 
@@ -38,11 +41,12 @@ class Case:
     options: dict[str, Any] = field(default_factory=dict)
     contenders: tuple[str, ...] = KEYS
     beside: str = ""
+    base: str = ""
 
 
 @dataclass(frozen=True)
 class Suite:
-    """``run`` measures one contender at one case, once."""
+    """``run`` measures one contender at one case, once; ``seconds`` is what that takes, about."""
 
     name: str
     title: str
@@ -50,6 +54,7 @@ class Suite:
     cases: Callable[[World], list[Case]]
     run: Callable[[World, Contender, Case], dict[str, float]]
     known: dict[str, Find] = field(default_factory=lambda: CLIENTS)
+    seconds: float = 3.0
 
 
 @dataclass
@@ -76,12 +81,16 @@ class Row:
 
 @dataclass
 class Results:
-    """What came of a suite."""
+    """What came of a suite, or is to come."""
 
     suite: Suite
     rows: list[Row]
     missing: list[str]
     quick: bool
+
+    def seconds(self, runs: int) -> float:
+        """What measuring it takes, about."""
+        return 0 if self.quick else len(self.rows) * runs * self.suite.seconds
 
     @property
     def peers(self) -> list[Contender]:
@@ -90,26 +99,31 @@ class Results:
 
     def ratio(self, row: Row, peer: Contender) -> float | None:
         """How many times better than this peer at the same case: more a second, or less time."""
-        name = row.case.beside or row.case.name
-        theirs = next(
-            (r for r in self.rows if r.case.name == name and r.contender.key == peer.key), None
+        return self._times_better(row, row.case.beside or row.case.name, peer)
+
+    def growth(self, row: Row) -> float | None:
+        """What is left of the smallest case of its series: 1 if size makes no difference."""
+        return self._times_better(row, row.case.base, row.contender) if row.case.base else None
+
+    def _times_better(self, row: Row, case: str, contender: Contender) -> float | None:
+        other = next(
+            (r for r in self.rows if r.case.name == case and r.contender.key == contender.key), None
         )
         figure = next(f for f in self.suite.figures if f.key == row.case.ratio)
         mine = row.median.get(figure.key)
-        other = theirs.median.get(figure.key) if theirs else None
-        if not mine or not other:
+        theirs = other.median.get(figure.key) if other else None
+        if not mine or not theirs:
             return None
-        return mine / other if figure.better == "more" else other / mine
+        return mine / theirs if figure.better == "more" else theirs / mine
 
 
-def run_suite(
+def plan(
     suite: Suite,
     world: World,
-    runs: int,
     only: Collection[str] = KEYS,
     parts: Collection[str] = ("",),
 ) -> Results:
-    """Every contender in turn, as often as asked, so that a drift of the machine hits all.
+    """What is to be measured: rows without figures.
 
     ``only`` names the contenders, ``parts`` are of the names of the cases wanted.
     """
@@ -122,13 +136,18 @@ def run_suite(
         for contender in contenders
         if contender.key in case.contenders and (contender.ours or not case.beside)
     ]
+    return Results(suite, rows, missing, world.quick)
+
+
+def run_suite(planned: Results, world: World, runs: int, progress: Progress) -> None:
+    """Every contender in turn, as often as asked, so that a drift of the machine hits all."""
+    suite = planned.suite
     for number in range(runs):
-        for row in rows:
-            title = f"{suite.name}, {row.case.name}, {row.contender.label}"
-            print(f"run {number + 1}: {title}", file=sys.stderr)
+        for row in planned.rows:
+            title = f"run {number + 1}: {suite.name}, {row.case.name}, {row.contender.label}"
+            progress.measuring(title, suite.seconds)
             try:
                 row.runs.append(suite.run(world, row.contender, row.case))
             except BenchmarkError as error:
                 print(f"failed: {error}", file=sys.stderr)
                 row.errors.append(str(error))
-    return Results(suite, rows, missing, world.quick)

@@ -13,7 +13,7 @@ from functools import cached_property
 from pathlib import Path
 
 from common import ROOT
-from common.contenders import PEERS, Contender, Find, find
+from common.contenders import PEERS, Contender, Find, Missing, Places
 from common.processes import BenchmarkError, Cores, Program, free_port
 
 __all__ = ["World", "open_world"]
@@ -25,17 +25,33 @@ class World:
     Which master it is makes no difference to messages, once nodes have found each other.
     """
 
-    def __init__(self, scratch: Path, stack: contextlib.ExitStack, quick: bool) -> None:
-        self.scratch = scratch
+    def __init__(self, places: Places, stack: contextlib.ExitStack, quick: bool) -> None:
+        self.places = places
         self.quick = quick
         self._stack = stack
+        self._found: dict[Find, Contender | Missing] = {}
         self._runs = 0
         self._logs = 0
 
     def find(
         self, known: dict[str, Find], wanted: Collection[str]
     ) -> tuple[list[Contender], list[str]]:
-        return find(known, wanted, self.scratch)
+        """Those of ``wanted`` that can run here, and what to say of the others."""
+        found, missing = [], []
+        for key in known:
+            if key not in wanted:
+                continue
+            if known[key] not in self._found:
+                try:
+                    self._found[known[key]] = known[key](self.places)
+                except Missing as error:
+                    self._found[known[key]] = error
+            result = self._found[known[key]]
+            if isinstance(result, Missing):
+                missing.append(f"without {key}: {result}")
+            else:
+                found.append(result)
+        return found, missing
 
     @cached_property
     def core_pairs(self) -> dict[str, tuple[Cores, Cores]]:
@@ -63,7 +79,7 @@ class World:
         result.update(
             ROS_MASTER_URI=master_uri or self.master_uri,
             ROS_HOSTNAME="localhost",
-            ROS_HOME=str(self.scratch),
+            ROS_HOME=str(self.places.scratch),
             ROS_PACKAGE_PATH="/usr/share",
             ROS_ROOT="/usr/share/ros",
             ROS_DISTRO="noetic",
@@ -77,7 +93,7 @@ class World:
 
     def start(self, command: list[str], environment: dict[str, str], core: Cores = None) -> Program:
         self._logs += 1
-        return Program(command, environment, self.scratch / f"{self._logs}.log", core)
+        return Program(command, environment, self.places.scratch / f"{self._logs}.log", core)
 
     def start_master(self, command: tuple[str, ...], *words: str) -> tuple[str, Program]:
         """A master started with ``command PORT words``, when it answers."""
@@ -96,7 +112,9 @@ class World:
 
 
 @contextlib.contextmanager
-def open_world(quick: bool = False) -> Iterator[World]:
+def open_world(
+    quick: bool = False, node_modules: Path | None = None, cros: Path | None = None
+) -> Iterator[World]:
     with contextlib.ExitStack() as stack:
-        scratch = stack.enter_context(tempfile.TemporaryDirectory())
-        yield World(Path(scratch), stack, quick)
+        scratch = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        yield World(Places(scratch, node_modules, cros), stack, quick)

@@ -1,8 +1,8 @@
 """One side of a benchmark, with this library: ``MODE name=value ...``, as every peer here.
 
 ``pub`` and ``sub``, ``ping`` and ``pong``, ``serve`` and ``call``, ``idle``; and ``latch``,
-which holds one message for the peers whose start is measured. What was measured is written
-to standard output, as one line of JSON.
+which holds one message for the peers whose start is measured; ``aioros1_growth.py`` has
+more. What was measured is written to standard output, as one line of JSON.
 """
 
 from __future__ import annotations
@@ -10,7 +10,9 @@ from __future__ import annotations
 import asyncio
 import sys
 import time
+from collections.abc import Callable, Coroutine
 from contextlib import AsyncExitStack
+from itertools import chain, repeat
 from typing import Any
 
 from measures import cpu, report, report_times
@@ -60,27 +62,45 @@ def make_message(options: Options) -> Any:
     return aioros1.load_msg(TYPES[kind]).from_dict(fields)
 
 
+def topics(options: Options, number: int = 1) -> list[str]:
+    """The topic, ``number`` times; or those that ``topics=N`` asks for."""
+    many = options.number("topics")
+    return [f"{TOPIC}_{i}" for i in range(many)] if many else [TOPIC] * number
+
+
 async def pub(options: Options) -> None:
     message = make_message(options)
     count, rate = options.number("count"), options.number("rate")
     queue_size = 10 if options.number("size") >= LARGE else 1000
-    async with (
-        aioros1.Node("pub") as node,
-        node.advertise(TOPIC, type(message), queue_size=queue_size) as pub,
-    ):
-        await pub.wait_for_subscribers(options.number("links", 1), timeout=60)
+    async with AsyncExitStack() as stack:
+        node = await stack.enter_async_context(aioros1.Node("pub"))
+        start = time.perf_counter()
+        pubs = [
+            await stack.enter_async_context(
+                node.advertise(topic, type(message), queue_size=queue_size)
+            )
+            for topic in topics(options)
+        ]
+        setup = time.perf_counter() - start
+        for pub in pubs:
+            await pub.wait_for_subscribers(options.number("links", 1), timeout=60)
         used, start = cpu(), time.perf_counter()
         if rate:
             async for _ in node.rate(rate):
-                pub.publish(message)
+                pubs[0].publish(message)
                 count -= 1
                 if not count:
                     break
-        else:
-            for _ in range(count):
+        elif options.number("turns"):
+            for pub in chain.from_iterable(repeat(pubs, count)):
                 await pub.send(message)
-        await pub.drain()
-        report(cpu=cpu() - used, seconds=time.perf_counter() - start)
+                await asyncio.sleep(0)
+        else:
+            for pub in chain.from_iterable(repeat(pubs, count)):
+                await pub.send(message)
+        for pub in pubs:
+            await pub.drain()
+        report(cpu=cpu() - used, seconds=time.perf_counter() - start, setup=setup)
 
 
 async def sub(options: Options) -> None:
@@ -88,18 +108,20 @@ async def sub(options: Options) -> None:
     queue_size = 10 if options.number("size") >= LARGE else 1000
     async with AsyncExitStack() as stack:
         node = await stack.enter_async_context(aioros1.Node("sub"))
+        start = time.perf_counter()
         subs = [
             await stack.enter_async_context(
                 node.subscribe(
-                    TOPIC,
+                    topic,
                     TYPES[options["kind"]],
                     queue_size=queue_size,
                     overflow="block",
                     views=bool(options.number("views")),
                 )
             )
-            for _ in range(number)
+            for topic in topics(options, number)
         ]
+        setup = time.perf_counter() - start
         report(ready=1)
         await subs[0].get(timeout=60)
         used, start = cpu(), time.perf_counter()
@@ -109,7 +131,8 @@ async def sub(options: Options) -> None:
                 receive(subs[0], count - 1), *(receive(sub, count) for sub in subs[1:])
             )
         )
-        report(received=received, seconds=time.perf_counter() - start, cpu=cpu() - used)
+        seconds = time.perf_counter() - start
+        report(received=received, seconds=seconds, cpu=cpu() - used, setup=setup)
         watch.cancel()
 
 
@@ -216,6 +239,15 @@ async def latch(options: Options) -> None:
 
 MODES = {mode.__name__: mode for mode in (pub, sub, ping, pong, serve, call, idle, latch)}
 
+
+def find_mode(name: str) -> Callable[[Options], Coroutine[Any, Any, None]]:
+    if name in MODES:
+        return MODES[name]
+    import aioros1_growth  # only here: what starts is measured as well
+
+    return aioros1_growth.MODES[name]
+
+
 if __name__ == "__main__":
     if "uvloop=1" in sys.argv:
         import uvloop
@@ -224,4 +256,4 @@ if __name__ == "__main__":
     else:
         run = asyncio.run
     words = Options(word.split("=", 1) for word in sys.argv[2:])
-    run(MODES[sys.argv[1]](words))
+    run(find_mode(sys.argv[1])(words))

@@ -33,6 +33,18 @@ def publisher_address(topic, node):
         time.sleep(0.02)
 
 
+def shake_hands(address, fields):
+    """A connection to a node, when both headers have gone."""
+    body = b"".join(len(field).to_bytes(4, "little") + field.encode() for field in fields)
+    connection = socket.create_connection(address)
+    connection.sendall(len(body).to_bytes(4, "little") + body)
+    size = int.from_bytes(connection.recv(4, socket.MSG_WAITALL), "little")
+    answer = connection.recv(size, socket.MSG_WAITALL)
+    if b"md5sum=" not in answer:
+        raise SystemExit(f"no connection: {answer!r}")
+    return connection
+
+
 def connect(address, topic, number):
     fields = [
         f"callerid=/reader_{number}",
@@ -42,12 +54,7 @@ def connect(address, topic, number):
         "message_definition=string data\n",
         "tcp_nodelay=0",
     ]
-    body = b"".join(len(field).to_bytes(4, "little") + field.encode() for field in fields)
-    connection = socket.create_connection(address)
-    connection.sendall(len(body).to_bytes(4, "little") + body)
-    size = int.from_bytes(connection.recv(4, socket.MSG_WAITALL), "little")
-    connection.recv(size, socket.MSG_WAITALL)
-    return connection
+    return shake_hands(address, fields)
 
 
 def main(options):

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -92,35 +93,54 @@ static void fill(Message& message) {
   message.data.resize(number("size"));
 }
 
+// The topic, so many times; or those that topics=N asks for.
+static std::vector<std::string> topics(long times = 1) {
+  const long many = number("topics");
+  if (!many) return std::vector<std::string>(times, kTopic);
+  std::vector<std::string> names;
+  for (long i = 0; i < many; ++i) names.push_back(std::string(kTopic) + "_" + std::to_string(i));
+  return names;
+}
+
 template <class Message>
 static void pub(ros::NodeHandle& node) {
   ros::AsyncSpinner spinner(1);
   spinner.start();
   Message message;
   fill(message);
-  ros::Publisher pub = node.advertise<Message>(kTopic, 0);
+  const Clock::time_point opened = Clock::now();
+  std::vector<ros::Publisher> pubs;
+  for (const std::string& topic : topics()) pubs.push_back(node.advertise<Message>(topic, 0));
+  const double setup = since(opened, Clock::now());
   const long count = number("count"), rate = number("rate");
-  while (long(pub.getNumSubscribers()) < number("links", 1)) ros::WallDuration(0.01).sleep();
+  for (const ros::Publisher& pub : pubs) {
+    while (long(pub.getNumSubscribers()) < number("links", 1)) ros::WallDuration(0.01).sleep();
+  }
   const double used = cpu();
   const Clock::time_point start = Clock::now();
   if (rate) {
     ros::WallRate pace(rate);
     for (long i = 0; i < count; ++i) {
-      pub.publish(message);
+      pubs[0].publish(message);
       pace.sleep();
     }
   } else {
-    for (long i = 0; i < count; ++i) pub.publish(message);
+    for (long i = 0; i < count; ++i) {
+      for (const ros::Publisher& pub : pubs) pub.publish(message);
+    }
   }
   // Most of it is still in the queue: it is sent when the subscriber has it and leaves.
-  while (pub.getNumSubscribers()) ros::WallDuration(0.01).sleep();
-  std::printf("{\"cpu\": %.6f, \"seconds\": %.9f, \"rss\": %ld}\n", cpu() - used,
-              since(start, Clock::now()), peak_memory());
+  for (const ros::Publisher& pub : pubs) {
+    while (pub.getNumSubscribers()) ros::WallDuration(0.01).sleep();
+  }
+  std::printf("{\"cpu\": %.6f, \"seconds\": %.9f, \"rss\": %ld, \"setup\": %.6f}\n", cpu() - used,
+              since(start, Clock::now()), peak_memory(), setup);
 }
 
 template <class Message>
 static void sub(ros::NodeHandle& node) {
-  const long subscribers = number("subscribers", 1), total = number("count") * subscribers;
+  const std::vector<std::string> names = topics(number("subscribers", 1));
+  const long total = number("count") * long(names.size());
   long received = 0;
   double used = 0;
   Clock::time_point first, last;
@@ -132,17 +152,20 @@ static void sub(ros::NodeHandle& node) {
           used = cpu();
         }
       };
+  const Clock::time_point opened = Clock::now();
   std::vector<ros::Subscriber> subs;
-  for (long i = 0; i < subscribers; ++i) {
-    subs.push_back(node.subscribe<Message>(kTopic, 0, callback));
+  for (const std::string& topic : names) {
+    subs.push_back(node.subscribe<Message>(topic, 0, callback));
   }
+  const double setup = since(opened, Clock::now());
   report_ready();
   while (received < total) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
     if (received && since(last, Clock::now()) > kIdle) break;
   }
-  std::printf("{\"received\": %ld, \"seconds\": %.9f, \"cpu\": %.6f, \"rss\": %ld}\n", received,
+  std::printf("{\"received\": %ld, \"seconds\": %.9f, \"cpu\": %.6f, \"rss\": %ld, ", received,
               since(first, last), cpu() - used, peak_memory());
+  std::printf("\"setup\": %.6f}\n", setup);
   std::fflush(stdout);
 }
 
@@ -221,6 +244,22 @@ static void idle(ros::NodeHandle& node) {
   ros::spin();
 }
 
+// There for others to connect to; a message now and then shows which are gone.
+static void host(ros::NodeHandle& node) {
+  std::signal(SIGUSR1, [](int) { report_ready(); });
+  ros::ServiceServer server = node.advertiseService("flip", flip);
+  ros::Publisher pub = node.advertise<std_msgs::String>(kTopic, 0);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  report_ready();
+  std_msgs::String message;
+  message.data = "x";
+  for (;;) {
+    pub.publish(message);
+    ros::WallDuration(0.1).sleep();
+  }
+}
+
 template <class Message>
 static void topic(ros::NodeHandle& node, const std::string& mode) {
   if (mode == "pub") pub<Message>(node);
@@ -243,6 +282,7 @@ int main(int argc, char** argv) {
   else if (mode == "serve") serve(node);
   else if (mode == "call") call(node);
   else if (mode == "idle") idle(node);
+  else if (mode == "host") host(node);
   else if (kind == "String") topic<std_msgs::String>(node, mode);
   else if (kind == "JointState") topic<sensor_msgs::JointState>(node, mode);
   else if (kind == "TransformStamped") topic<geometry_msgs::TransformStamped>(node, mode);

@@ -5,9 +5,12 @@ faster of its two ways by far, and loses nothing. What comes back is answered wh
 arrives, in the callback, which spares rospy the way to another thread.
 """
 
+import gc
+import signal
 import sys
 import threading
 import time
+from itertools import chain, repeat
 
 import rospy
 from geometry_msgs.msg import TransformStamped
@@ -39,29 +42,40 @@ def make_message(options):
     return message
 
 
+def topics(options, number=1):
+    """The topic, ``number`` times; or those that ``topics=N`` asks for."""
+    many = int(options.get("topics", 0))
+    return [f"{TOPIC}_{i}" for i in range(many)] if many else [TOPIC] * number
+
+
 def pub(options):
     message = make_message(options)
     count, rate = int(options["count"]), int(options.get("rate", 0))
-    pub = rospy.Publisher(TOPIC, type(message), queue_size=None)
-    while pub.get_num_connections() < int(options.get("links", 1)):
-        time.sleep(0.01)
+    start = time.perf_counter()
+    pubs = [rospy.Publisher(topic, type(message), queue_size=None) for topic in topics(options)]
+    setup = time.perf_counter() - start
+    for pub in pubs:
+        while pub.get_num_connections() < int(options.get("links", 1)):
+            time.sleep(0.01)
     used, start = cpu(), time.perf_counter()
     if rate:
         pace = rospy.Rate(rate)
         for _ in range(count):
-            pub.publish(message)
+            pubs[0].publish(message)
             pace.sleep()
     else:
-        for _ in range(count):
+        for pub in chain.from_iterable(repeat(pubs, count)):
             pub.publish(message)
     used, seconds = cpu() - used, time.perf_counter() - start
-    while pub.get_num_connections():
-        time.sleep(0.01)
-    report(cpu=used, seconds=seconds)
+    for pub in pubs:
+        while pub.get_num_connections():
+            time.sleep(0.01)
+    report(cpu=used, seconds=seconds, setup=setup)
 
 
 def sub(options):
-    total = int(options["count"]) * int(options.get("subscribers", 1))
+    names = topics(options, int(options.get("subscribers", 1)))
+    total = int(options["count"]) * len(names)
     done = threading.Event()
     state = {"received": 0, "first": 0.0, "last": 0.0, "used": 0.0}
 
@@ -75,8 +89,10 @@ def sub(options):
         if state["received"] == total:
             done.set()
 
-    for _ in range(int(options.get("subscribers", 1))):
-        rospy.Subscriber(TOPIC, TYPES[options["kind"]], callback)
+    start = time.perf_counter()
+    for topic in names:
+        rospy.Subscriber(topic, TYPES[options["kind"]], callback)
+    setup = time.perf_counter() - start
     report(ready=1)
     while not done.wait(0.2):
         if state["received"] and time.perf_counter() - state["last"] > IDLE:
@@ -85,6 +101,7 @@ def sub(options):
         received=state["received"],
         seconds=state["last"] - state["first"],
         cpu=cpu() - state["used"],
+        setup=setup,
     )
 
 
@@ -147,7 +164,24 @@ def idle(options):
     threading.Event().wait()
 
 
-MODES = {mode.__name__: mode for mode in (pub, sub, ping, pong, serve, call, idle)}
+def host(_):
+    """There for others to connect to; a message now and then shows which are gone."""
+    rospy.Service("flip", SetBool, lambda request: SetBoolResponse(request.data, "ok"))
+    pub = rospy.Publisher(TOPIC, String, queue_size=None)
+
+    def tell(*_):
+        gc.collect()
+        report(objects=len(gc.get_objects()))
+
+    signal.signal(signal.SIGUSR1, tell)
+    report(ready=1)
+    pace = rospy.Rate(10)
+    while True:
+        pub.publish("x")
+        pace.sleep()
+
+
+MODES = {mode.__name__: mode for mode in (pub, sub, ping, pong, serve, call, idle, host)}
 
 if __name__ == "__main__":
     rospy.init_node(sys.argv[1], disable_signals=True)

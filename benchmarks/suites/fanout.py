@@ -17,9 +17,10 @@ from suites.topics import COLUMNS, figures
 
 __all__ = ["SUITE"]
 
-NUMBERS = (1, 10, 50)
+NUMBERS = (1, 10, 50, 200)
 SIZE = 32
-DELIVERED = {"links": 2_000_000, "subscribers": 500_000}
+DELIVERED = {"links": 1_000_000, "subscribers": 500_000}
+OURS = 10
 QUICK = 100
 CONTENDERS = ("aioros1", "aioros1-uvloop", "rospy", "roscpp")
 
@@ -37,6 +38,8 @@ def cases(world: World) -> list[Case]:
 def run(world: World, contender: Contender, case: Case) -> dict[str, float]:
     environment = world.environment()
     count, links = case.options["count"], case.options.get("links", 0)
+    if links and contender.ours and not world.quick:
+        count *= OURS  # or it would be over before it can be measured
     options = {"kind": "String", "size": SIZE, "count": count}
     if links:
         words = [f"links={links}", f"count={count}", f"size={SIZE}"]
@@ -54,5 +57,10 @@ def run(world: World, contender: Contender, case: Case) -> dict[str, float]:
 
 
 SUITE = Suite(
-    "fanout", "Fan-out: String 32 B from one publisher to many, delivered", COLUMNS, cases, run
+    "fanout",
+    "Fan-out: String 32 B from one publisher to many, delivered",
+    COLUMNS,
+    cases,
+    run,
+    seconds=1.7,
 )

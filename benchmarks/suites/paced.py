@@ -9,7 +9,7 @@ from common.world import World
 __all__ = ["SUITE"]
 
 RATE = 1000
-SECONDS, QUICK = 10.0, 0.2
+SECONDS, QUICK = 6.0, 0.2
 
 
 def cases(world: World) -> list[Case]:
@@ -49,4 +49,5 @@ SUITE = Suite(
     ),
     cases,
     run,
+    seconds=7,
 )

@@ -10,7 +10,7 @@ __all__ = ["SUITE"]
 
 PERSISTENT, SINGLE = 20_000, 2_000
 QUICK = 10
-CONTENDERS = ("aioros1", "aioros1-uvloop", "rospy", "roscpp")
+CONTENDERS = ("aioros1", "aioros1-uvloop", "rospy", "roscpp", "rosnodejs")
 
 
 def cases(world: World) -> list[Case]:
@@ -18,7 +18,7 @@ def cases(world: World) -> list[Case]:
     single = {"persistent": 0, "count": QUICK if world.quick else SINGLE, "cores": (None, None)}
     return [
         *(
-            Case(f"persistent, {pinning}", "rate", {**kept, "cores": cores}, CONTENDERS)
+            Case(f"persistent, {pinning}", "rate", {**kept, "cores": cores}, (*CONTENDERS, "cros"))
             for pinning, cores in world.core_pairs.items()
         ),
         Case("one connection per call", "rate", single, CONTENDERS),
@@ -28,7 +28,8 @@ def cases(world: World) -> list[Case]:
 def run(world: World, contender: Contender, case: Case) -> dict[str, float]:
     environment = world.environment()
     here, there = case.options["cores"]
-    options = {name: case.options[name] for name in ("persistent", "count")}
+    count = contender.count(case.options["count"])
+    options = {"persistent": case.options["persistent"], "count": count}
     with (
         world.start(contender.arguments("serve"), environment, there),
         world.start(contender.arguments("call", **options), environment, here) as call,

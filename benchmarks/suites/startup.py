@@ -11,7 +11,8 @@ from __future__ import annotations
 import sys
 import time
 
-from common.contenders import CLIENTS, Contender
+from common.contenders import Contender
+from common.known import CLIENTS
 from common.suite import Case, Figure, Suite
 from common.world import World
 
@@ -20,7 +21,7 @@ __all__ = ["SUITE"]
 SETTLE, QUICK = 1.0, 0.1
 """Seconds until an idle node is looked at."""
 
-CONTENDERS = ("aioros1", "aioros1-uvloop", "rospy", "roscpp")
+CONTENDERS = ("aioros1", "aioros1-uvloop", "rospy", "roscpp", "foxglove", "rosnodejs")
 IMPORTS = {
     "aioros1": "import aioros1; aioros1.Node",
     "aioros1-uvloop": "import aioros1, uvloop; aioros1.Node",
@@ -43,7 +44,7 @@ def run(world: World, contender: Contender, case: Case) -> dict[str, float]:
 
 def first_message(world: World, contender: Contender) -> dict[str, float]:
     environment = world.environment()
-    latch = CLIENTS["aioros1"](world.scratch).arguments("latch")
+    latch = CLIENTS["aioros1"](world.places).arguments("latch")
     with world.start(latch, environment) as publisher:
         publisher.report()
         start = time.perf_counter()
@@ -86,4 +87,5 @@ SUITE = Suite(
     ),
     cases,
     run,
+    seconds=1.5,
 )

@@ -1,4 +1,4 @@
-"""The table of a suite, and all figures as JSON."""
+"""The table of a suite on the terminal, and all figures as JSON."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from typing import Any
 
 import aioros1
 from common.suite import Results, Row
+from common.versions import cpu_model, distribution
 
-__all__ = ["as_json", "machine", "print_table"]
+__all__ = ["as_json", "machine", "print_machine", "print_table"]
 
 
 def print_table(results: Results) -> None:
@@ -18,18 +19,24 @@ def print_table(results: Results) -> None:
     runs = max((len(row.runs) for row in results.rows), default=0)
     head = ["", "", *(figure.title for figure in suite.figures)]
     head += [f"x {peer.label.split(',')[0]}" for peer in peers]
+    series = any(row.case.base for row in results.rows)
+    head += ["x smallest"] * series
     lines = [head]
     case = ""
     for row in results.rows:
         name = "" if row.case.name == case else row.case.name
         case = row.case.name
         ratios = [cell(results.ratio(row, peer), ".2f") for peer in peers]
-        lines.append([name, row.contender.label, *cells(results, row), *ratios])
+        grown = [cell(results.growth(row), ".2f")] * series
+        lines.append([name, row.contender.label, *cells(results, row), *ratios, *grown])
     print(f"\n{suite.title}")
-    turns = f"Medians of {runs} runs that took turns" if runs > 1 else "One run"
-    print(f"{turns}; Python {platform.python_version()}")
+    print(f"Medians of {runs} runs that took turns" if runs > 1 else "One run")
+    if versions := [f"{peer.label.split(',')[0]} {peer.version}" for peer in peers]:
+        print("Beside", ", ".join(versions))
     if peers:
         print("x: how many times better than that peer, by", ", ".join(ratio_titles(results)))
+    if series:
+        print("x smallest: the same, than itself at the smallest of the series; 1 is flat")
     if results.quick:
         print("--quick: too few messages for the figures to mean anything.")
     print_aligned(lines)
@@ -68,16 +75,25 @@ def print_aligned(lines: list[list[str]]) -> None:
 def as_json(results: Results) -> dict[str, Any]:
     return {
         "title": results.suite.title,
-        "figures": {f.key: {"title": f.title, "better": f.better} for f in results.suite.figures},
+        "figures": {
+            f.key: {"title": f.title, "format": f.format, "better": f.better}
+            for f in results.suite.figures
+        },
+        "contenders": {
+            row.contender.key: {"label": row.contender.label, "version": row.contender.version}
+            for row in results.rows
+        },
         "missing": results.missing,
         "rows": [
             {
                 "case": row.case.name,
                 "contender": row.contender.key,
+                "beside": row.case.beside,
                 "median": row.median,
                 "lost": row.worst_loss,
                 "ratio_of": row.case.ratio,
                 "ratios": {peer.key: results.ratio(row, peer) for peer in results.peers},
+                "growth": results.growth(row),
                 "runs": row.runs,
                 "errors": row.errors,
             }
@@ -91,8 +107,18 @@ def machine(quick: bool) -> dict[str, Any]:
     return {
         "when": datetime.now(UTC).isoformat(timespec="seconds"),
         "quick": quick,
-        "aioros1": aioros1.__version__,
-        "python": platform.python_version(),
-        "platform": platform.platform(),
+        "cpu": cpu_model(),
         "cores": os.cpu_count(),
+        "kernel": platform.release(),
+        "platform": platform.platform(),
+        "python": platform.python_version(),
+        "aioros1": aioros1.__version__,
+        "aiohttp": distribution("aiohttp"),
+        "uvloop": distribution("uvloop"),
     }
+
+
+def print_machine(found: dict[str, Any]) -> None:
+    print(f"{found['cpu']}, {found['cores']} cores, kernel {found['kernel']}")
+    parts = [f"{name} {found[name]}" for name in ("aioros1", "aiohttp", "uvloop") if found[name]]
+    print(", ".join([f"Python {found['python']}", *parts]))
