@@ -48,9 +48,6 @@ class Clock:
         """Take the time from ``/clock``."""
         subscriber = await node.subscribe("/clock", "rosgraph_msgs/Clock", queue_size=1)
         async for message in subscriber:
-            # A message is handed over at once. Who was about to look at the clock, in this
-            # turn of the loop, is to see the time that it was.
-            await asyncio.sleep(0)
             self.set(message.clock)
 
     def fail(self, error: BaseException) -> None:

@@ -4,12 +4,10 @@ The publishers of one topic in one node share a :class:`Publication`, because to
 rest of the graph they are one. This is the sending half of the data path:
 
 * A message is encoded once, by the publisher, and written to all connections.
-* One that comes alone is written at once. One that follows on the heels of another is
-  collected with those behind it and written as one block, at 64 KiB or at the end of the
-  turn of the event loop: one system call per message reaches 0.4 million messages a
-  second, blocks reach 4 million. The end of a turn is a callback, and so another round of
-  the loop; a message that comes alone does without, which saves 9 of the 35 µs that a
-  short message takes to another process and back.
+* One that comes alone is written at once. One that follows on the heels of another
+  (:mod:`aioros1.turn`) is collected with those behind it and written as one block, at
+  64 KiB or at the end of the turn of the event loop: one system call per message reaches
+  0.4 million messages a second, blocks reach 4 million.
 * The block is joined once for all connections that keep up. One that does not leaves
   the fast lane and gets a queue of its own until it has caught up.
 """
@@ -17,13 +15,13 @@ rest of the graph they are one. This is the sending half of the data path:
 from __future__ import annotations
 
 import asyncio
-from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from aioros1.connection import ConnectionInfo
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
 from aioros1.registration import Registration
+from aioros1.turn import this_loops_turn
 from aioros1.waiting import Waiters
 from aioros1.wire.allocation import keep_memory
 from aioros1.wire.handshake import TopicOffer
@@ -34,13 +32,6 @@ if TYPE_CHECKING:
     from aioros1.publisher import Publisher
 
 __all__ = ["Publication"]
-
-_HEELS = 5e-6
-"""Seconds between two messages of a flood at the most. A flood has one every microsecond;
-who waits for an answer in between needs ten at least."""
-
-_AT_ONCE = 16
-"""Messages that are written one by one until others get their turn."""
 
 
 class Publication:
@@ -60,17 +51,11 @@ class Publication:
         self._slow: tuple[OutgoingLink, ...] = ()
         self._pending: list[bytes] = []
         self._pending_bytes = 0
-        self._written_at = 0.0
-        self._written = 0  # one by one, since the last turn that was noted
-        self._turn_is_full = False
         # Plain attributes, for they are looked at for every message.
+        self.turn = this_loops_turn()
         self.is_congested = False
         """Whether messages wait in the queue of any connection."""
-        self.collects = False
-        """Whether messages are collected until the end of the turn."""
-        self.gives_way = True
-        """Whether it is time to let others run, as a whole block went out in this turn, or
-        nobody is there to slow the publisher down."""
+        self.has_subscribers = False
         self.registration = Registration("publisher", topic, self._register, self._unregister)
 
     @property
@@ -124,30 +109,26 @@ class Publication:
 
     # sending
 
-    def begin(self) -> None:
-        """Before a message is encoded, unless :attr:`collects`: is it one of a flood?"""
-        if perf_counter() - self._written_at < _HEELS:
-            self._note_turn()
-
     def send(self, frame: Frame, publisher: Publisher[Any]) -> None:
         """Give ``frame`` to every connection, or to its queue, as ``publisher`` wants."""
         stats = publisher.stats
         stats.messages += 1
-        if self.collects and isinstance(frame, bytes):
+        turn = self.turn
+        if turn.collects and isinstance(frame, bytes):
             size = len(frame)
             stats.bytes += size
             for link in self._slow:
                 _enqueue(link, frame, publisher)
+            if not self._pending:
+                turn.at_end(self._flush)
             self._pending.append(frame)
             self._pending_bytes += size
             if self._pending_bytes >= JOIN:
                 self._flush()
-                self._turn_is_full = self.gives_way = True
+                turn.lengthen()
             return
         size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
         stats.bytes += size
-        if size >= JOIN:
-            keep_memory(size)  # for the next one to be encoded
         # Before anything else: a connection may fill up with what is sent here, and then
         # belongs to those for whom the frame is queued.
         self._flush()
@@ -155,27 +136,15 @@ class Publication:
             _enqueue(link, frame, publisher)
         for link in self._open:
             link.write(frame, 1)
-        self._written += 1
-        if self._written >= _AT_ONCE or not isinstance(frame, bytes):
-            self._note_turn()
-            self._turn_is_full = self.gives_way = True
-        self._written_at = perf_counter()
+        turn.wrote()
+        if size >= JOIN:
+            turn.lengthen()
+            keep_memory(size)  # for the next one to be encoded
 
     def has_room(self, publisher: Publisher[Any]) -> bool:
         """Whether every queue would take one more message without dropping any."""
         size = publisher.options.queue_size
         return not self._slow or all(_waiting(link, publisher) < size for link in self._slow)
-
-    def _note_turn(self) -> None:
-        if not self.collects:
-            self.collects = True
-            asyncio.get_running_loop().call_soon(self._end_turn)
-
-    def _end_turn(self) -> None:
-        self._written = 0
-        self.collects = self._turn_is_full = False
-        self._flush()
-        self._look()
 
     def _flush(self) -> None:
         pending = self._pending
@@ -189,7 +158,7 @@ class Publication:
     def _look(self) -> None:
         """Set what depends on the connections."""
         self.is_congested = bool(self._slow)
-        self.gives_way = self._turn_is_full or not (self._open or self._slow)
+        self.has_subscribers = bool(self._open or self._slow)
 
     # connections
 

@@ -129,8 +129,9 @@ class Publisher(Role, Generic[M]):
         if not self._is_open:
             raise self._closed_error()
         publication = self._publication
-        if not publication.collects:
-            publication.begin()
+        turn = publication.turn
+        if not turn.collects:
+            turn.begin()
         frame = self._encode(msg, fields)
         if self._blocks and publication.is_congested:
             self._require_room()
@@ -146,7 +147,9 @@ class Publisher(Role, Generic[M]):
         self._check_open()
         if self._blocks:
             self._require_room()
-        self._publication.begin()
+        turn = self._publication.turn
+        if not turn.collects:
+            turn.begin()
         frame = frame_parts(buffer, join=JOIN)
         if self._latches:
             self.latched = frame
@@ -175,13 +178,14 @@ class Publisher(Role, Generic[M]):
             await self._wait_until(
                 lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
             )
-        if not publication.collects:
-            publication.begin()
+        turn = publication.turn
+        if not turn.collects:
+            turn.begin()
         frame = self._encode(msg, fields)
         if self._latches:
             self.latched = frame
         publication.send(frame, self)
-        if publication.gives_way:
+        if turn.is_long or not publication.has_subscribers:
             await asyncio.sleep(0)
 
     async def drain(self, *, timeout: float | None = None) -> None:

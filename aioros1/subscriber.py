@@ -298,6 +298,7 @@ class Subscriber(Role, Generic[M]):
             link.pause()
             self._backlog.append((link, frames, 0))
             self._refill()
+        self._arrived.wake()
 
     def _refill(self) -> None:
         """Move what waits into the queue, and read on from connections that are done."""

@@ -81,7 +81,6 @@ class Subscription:
         for link in self._links:
             if link.latched is not None:
                 subscriber._offer([link.latched])
-                subscriber._arrived.wake()
 
     def remove(self, subscriber: Subscriber[Any]) -> None:
         """One less; with the last one go the connections."""
@@ -136,12 +135,8 @@ class Subscription:
         link = frames[-1][0].link
         if link.offer.latching:
             link.latched = frames[-1]
-        subscribers = self.subscribers
-        for sub in subscribers:
+        for sub in self.subscribers:
             sub._offer(frames)
-        # Only now: whoever takes the messages may do anything to the other subscribers.
-        for sub in subscribers:
-            sub._arrived.resume()
 
     # at the master
 

@@ -4,7 +4,6 @@ Streams carry the handshake, and then the transport is taken over, as for topics
 ``StreamReader`` wakes its reader for the length and again for the rest, and each of these
 waits would have a timeout of its own. Here, what came is looked at where it arrives, one
 future is resolved for a whole frame, and the clock runs only while half a frame is there.
-Whoever waits for it goes on at once (:class:`~aioros1.waiting.Waiter`).
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ from collections.abc import Callable
 from typing import Any, cast
 
 from aioros1.net.tcpros import Stream
-from aioros1.waiting import Waiter
 from aioros1.wire.service import ServiceFrameError, frame_length
 
 __all__ = ["ServiceLink"]
@@ -45,7 +43,7 @@ class ServiceLink(asyncio.Protocol):
         self._loop = asyncio.get_running_loop()
         self._buffer = bytearray()
         self._wanted = 0  # bytes of the frame in the buffer, once its length is there
-        self._receiver: Waiter[Any] | None = None
+        self._receiver: asyncio.Future[Any] | None = None
         self.at_once: Callable[[bytes], Any] | None = None
         """Is given each frame that is waited for, as long as what is written is taken. What
         it returns :meth:`receive` returns in place of the frame; with None it waits on."""
@@ -83,11 +81,11 @@ class ServiceLink(asyncio.Protocol):
             return
         if self._timer is not None:
             self._set_timer(None)
-        # Last, for whoever waits runs now.
+        # Last, for what is called may do anything.
         if self.at_once is None or self._buffer or self._writable is not None:
-            receiver.resume(frame)
+            receiver.set_result(frame)
         elif (result := self.at_once(frame)) is not None:
-            receiver.resume(result)
+            receiver.set_result(result)
 
     def eof_received(self) -> bool:
         self._end()
@@ -136,7 +134,7 @@ class ServiceLink(asyncio.Protocol):
         if self._is_paused:
             self._is_paused = False
             self._transport.resume_reading()
-        self._receiver = Waiter(loop=self._loop)
+        self._receiver = self._loop.create_future()
         self._set_timer(self._patience if self._buffer else patience)
         try:
             return await self._receiver

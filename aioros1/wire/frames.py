@@ -185,7 +185,6 @@ class FrameReceiver:
             position = stop
         else:
             self._tail = data[position:]
-        # Last, for with them the sink may do anything.
         if frames:
             self.frames_received += len(frames)
             self._sink.frames(frames)

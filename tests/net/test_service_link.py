@@ -226,25 +226,6 @@ async def test_a_reset_is_an_error(listening: socket.socket) -> None:
     await drop(stream)
 
 
-async def test_whoever_waits_for_a_frame_runs_before_the_next_turn(linked: Pair) -> None:
-    link, _ = linked
-    order = []
-
-    async def receive() -> None:
-        order.append(await link.receive(patience=None))
-
-    def arrive() -> None:
-        asyncio.get_running_loop().call_soon(order.append, "the next turn")
-        link.data_received(request(b"abc"))
-
-    receiving = asyncio.create_task(receive())
-    await asyncio.sleep(0)
-    asyncio.get_running_loop().call_soon(arrive)
-    await receiving
-    await asyncio.sleep(0)
-    assert order == [request(b"abc"), "the next turn"]
-
-
 async def test_frames_that_are_answered_at_once_need_nobody_to_receive_them(linked: Pair) -> None:
     link, peer = linked
     link.at_once = lambda frame: link.write(frame[4:])  # None: there is nothing left to do
