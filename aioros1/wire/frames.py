@@ -147,7 +147,7 @@ class FrameReceiver:
     def block(self, data: bytes | memoryview) -> None:
         """Take bytes that were received elsewhere, and will not change: without a copy,
         where they are whole frames."""
-        if self._large is None and data.__class__ is bytes:
+        if self._large is None and isinstance(data, bytes):
             self.bytes_received += len(data)
             self._cut(data)
         else:
