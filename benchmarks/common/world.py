@@ -69,6 +69,7 @@ class World:
         command = (sys.executable, str(PEERS / "aioros1_master.py"))
         # Without /rosout, which would go on looking for the nodes of earlier runs.
         uri, program = self.start_master(command, "rosout=0")
+        program.outlasts()
         self._stack.enter_context(program)
         return uri
 
