@@ -11,7 +11,7 @@ from __future__ import annotations
 
 __all__ = ["keep_memory"]
 
-_TIMES = 4
+_TIMES = 16
 """Several messages are under way at a time: in a queue, being decoded, in the application."""
 
 _MOST = 31 << 20
@@ -23,8 +23,8 @@ _kept = 0
 def keep_memory(size: int) -> None:
     """Have memory at hand for messages of ``size`` bytes; of no effect but on speed.
 
-    It concerns the whole process. What it holds back is bounded: twice four messages, and
-    62 MiB whatever their size.
+    It concerns the whole process. What it holds back is bounded: twice sixteen messages,
+    and 62 MiB whatever their size.
     """
     global _kept
     if size > _kept < _MOST:
