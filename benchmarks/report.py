@@ -158,7 +158,7 @@ def section(measured: Measured, name: str, level: str = "##") -> str:
         for key, figure in suite["figures"].items()
     ]
     head = ["", "", *titles, *(f"× {labels[peer].split(',')[0]}" for peer in peers)]
-    head += ["× smallest"] * series
+    head += [f"× {suite['base']}"] * series
     rows, case = [], ""
     for row in suite["rows"]:
         cells = ["" if row["case"] == case else row["case"], labels[row["contender"]]]

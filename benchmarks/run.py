@@ -35,6 +35,7 @@ from suites import (
     growth_notices,
     growth_topics,
     latency,
+    local,
     master,
     paced,
     services,
@@ -43,7 +44,7 @@ from suites import (
 )
 
 MODULES = (
-    *(topics, latency, services, fanout, paced, master, startup),
+    *(topics, latency, services, fanout, paced, master, startup, local),
     *(growth_topics, growth_nodes, growth_master, growth_notices, growth_connections),
 )
 SUITES: dict[str, Suite] = {module.SUITE.name: module.SUITE for module in MODULES}

@@ -23,6 +23,13 @@ CASES = {
     "paced": {"1000 Hz, String 32 B"},
     "master": {"8 clients"},
     "startup": {"first message", "idle", "import"},
+    "local": {
+        "String 32 B, there and back, TCP",
+        "String 32 B, there and back, Unix socket",
+        "Image 1 MB, Unix socket",
+        "Image 1 MB, one loop, TCP",
+        "Image 1 MB, one loop, in process",
+    },
     "growth-topics": {"10 topics", "10 topics, one a turn"},
     "growth-nodes": {"10 nodes"},
     "growth-master": {"100 registrations"},
@@ -135,6 +142,7 @@ def suite(
     keys = dict.fromkeys(key for _, _, figures in rows for key in figures)
     return {
         "title": title,
+        "base": "smallest",
         "figures": {key: {"title": key, "format": ",.2f", "better": better} for key in keys},
         "contenders": {who: {"label": who, "version": "1"} for _, who, _ in rows},
         "missing": ["without cros: nobody knows where it is"],

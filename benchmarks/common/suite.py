@@ -46,7 +46,10 @@ class Case:
 
 @dataclass(frozen=True)
 class Suite:
-    """``run`` measures one contender at one case, once; ``seconds`` is what that takes, about."""
+    """``run`` measures one contender at one case, once; ``seconds`` is what that takes, about.
+
+    ``base`` is the word for what a series is compared with.
+    """
 
     name: str
     title: str
@@ -55,6 +58,7 @@ class Suite:
     run: Callable[[World, Contender, Case], dict[str, float]]
     known: dict[str, Find] = field(default_factory=lambda: CLIENTS)
     seconds: float = 3.0
+    base: str = "smallest"
 
 
 @dataclass

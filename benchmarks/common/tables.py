@@ -20,7 +20,7 @@ def print_table(results: Results) -> None:
     head = ["", "", *(figure.title for figure in suite.figures)]
     head += [f"x {peer.label.split(',')[0]}" for peer in peers]
     series = any(row.case.base for row in results.rows)
-    head += ["x smallest"] * series
+    head += [f"x {suite.base}"] * series
     lines = [head]
     case = ""
     for row in results.rows:
@@ -36,7 +36,7 @@ def print_table(results: Results) -> None:
     if peers:
         print("x: how many times better than that peer, by", ", ".join(ratio_titles(results)))
     if series:
-        print("x smallest: the same, than itself at the smallest of the series; 1 is flat")
+        print(f"x {suite.base}: the same, than itself there; 1 is no difference")
     if results.quick:
         print("--quick: too few messages for the figures to mean anything.")
     print_aligned(lines)
@@ -75,6 +75,7 @@ def print_aligned(lines: list[list[str]]) -> None:
 def as_json(results: Results) -> dict[str, Any]:
     return {
         "title": results.suite.title,
+        "base": results.suite.base,
         "figures": {
             f.key: {"title": f.title, "format": f.format, "better": f.better}
             for f in results.suite.figures

@@ -1,8 +1,9 @@
 """One side of a benchmark, with this library: ``MODE name=value ...``, as every peer here.
 
 ``pub`` and ``sub``, ``ping`` and ``pong``, ``serve`` and ``call``, ``idle``; and ``latch``,
-which holds one message for the peers whose start is measured; ``aioros1_growth.py`` has
-more. What was measured is written to standard output, as one line of JSON.
+which holds one message for the peers whose start is measured; ``aioros1_growth.py``
+and ``aioros1_one_loop.py`` have more. What was measured is written to standard output, as
+one line of JSON.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ import aioros1
 TOPIC = "benchmark"
 LARGE = 1 << 16
 """Bytes from which on a queue is kept short: a thousand images would fill the memory."""
+
+TRANSPORTS = {"": "TCPROS", "unix": "UNIXROS", "intraprocess": "INTRAPROCESS"}
+"""The transport that connections have by ``local=...``."""
 
 TYPES = {
     "String": "std_msgs/String",
@@ -62,6 +66,17 @@ def make_message(options: Options) -> Any:
     return aioros1.load_msg(TYPES[kind]).from_dict(fields)
 
 
+def make_node(name: str, options: Options) -> aioros1.Node:
+    local: Any = options.get("local")
+    return aioros1.Node(name, local_transports=(local,) if local else ())
+
+
+def check_transport(pub: aioros1.Publisher[Any], options: Options) -> None:
+    """What is measured is what was asked for: nodes fall back to TCP without a word."""
+    found = {connection.transport for connection in pub.connections}
+    assert found == {TRANSPORTS[options.get("local", "")]}, found
+
+
 def topics(options: Options, number: int = 1) -> list[str]:
     """The topic, ``number`` times; or those that ``topics=N`` asks for."""
     many = options.number("topics")
@@ -73,7 +88,7 @@ async def pub(options: Options) -> None:
     count, rate = options.number("count"), options.number("rate")
     queue_size = 10 if options.number("size") >= LARGE else 1000
     async with AsyncExitStack() as stack:
-        node = await stack.enter_async_context(aioros1.Node("pub"))
+        node = await stack.enter_async_context(make_node("pub", options))
         start = time.perf_counter()
         pubs = [
             await stack.enter_async_context(
@@ -84,6 +99,7 @@ async def pub(options: Options) -> None:
         setup = time.perf_counter() - start
         for pub in pubs:
             await pub.wait_for_subscribers(options.number("links", 1), timeout=60)
+            check_transport(pub, options)
         used, start = cpu(), time.perf_counter()
         if rate:
             async for _ in node.rate(rate):
@@ -107,7 +123,7 @@ async def sub(options: Options) -> None:
     count, number = options.number("count"), options.number("subscribers", 1)
     queue_size = 10 if options.number("size") >= LARGE else 1000
     async with AsyncExitStack() as stack:
-        node = await stack.enter_async_context(aioros1.Node("sub"))
+        node = await stack.enter_async_context(make_node("sub", options))
         start = time.perf_counter()
         subs = [
             await stack.enter_async_context(
@@ -160,12 +176,13 @@ async def ping(options: Options) -> None:
     count = options.number("count")
     times = []
     async with (
-        aioros1.Node("ping") as node,
+        make_node("ping", options) as node,
         node.advertise("ping", type(message)) as pub,
-        node.subscribe("pong", type(message)) as sub,
+        node.subscribe("pong", type(message), views=bool(options.number("views"))) as sub,
     ):
         await pub.wait_for_subscribers(timeout=60)
         await sub.wait_for_publishers(timeout=60)
+        check_transport(pub, options)
         for _ in range(count + count // 10):
             start = time.perf_counter()
             pub.publish(message)
@@ -177,8 +194,8 @@ async def ping(options: Options) -> None:
 async def pong(options: Options) -> None:
     type_name = TYPES[options["kind"]]
     async with (
-        aioros1.Node("pong") as node,
-        node.subscribe("ping", type_name) as sub,
+        make_node("pong", options) as node,
+        node.subscribe("ping", type_name, views=bool(options.number("views"))) as sub,
         node.advertise("pong", type_name) as pub,
     ):
         async for message in sub:
@@ -244,8 +261,9 @@ def find_mode(name: str) -> Callable[[Options], Coroutine[Any, Any, None]]:
     if name in MODES:
         return MODES[name]
     import aioros1_growth  # only here: what starts is measured as well
+    import aioros1_one_loop
 
-    return aioros1_growth.MODES[name]
+    return (aioros1_growth.MODES | aioros1_one_loop.MODES)[name]
 
 
 if __name__ == "__main__":
