@@ -1,0 +1,220 @@
+"""One connection through a :class:`.FlakyProxy`, and all that can be done to it."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import math
+import socket
+import struct
+from collections.abc import Callable, Sequence
+from typing import Any, Literal
+
+from aioros1.testing.flow import ROOM, Direction, Faults, Flow
+from aioros1.waiting import Waiters
+
+__all__ = [
+    "Address",
+    "Directions",
+    "Flaky",
+    "FlakyConnection",
+    "directions",
+]
+
+Directions = Literal["up", "down", "both"]
+"""Which way of a connection a fault is for."""
+
+Address = tuple[socket.AddressFamily, tuple[str, int]]
+
+_BOTH: tuple[Direction, Direction] = ("up", "down")
+
+
+class Flaky:
+    """The faults that a connection, or all of those of a proxy, can have.
+
+    ``direction`` is ``"up"`` (from the client to the server), ``"down"`` or ``"both"``.
+    """
+
+    def stall(self, direction: Directions = "both") -> None:
+        """Let nothing pass, not even the end; the connections stay open.
+
+        Nothing is read either, so that the sender feels it once the system's buffers are full.
+        """
+        self._change(direction, stalled=True)
+
+    def resume(self, direction: Directions = "both") -> None:
+        """End :meth:`stall`; nothing was lost."""
+        self._change(direction, stalled=False)
+
+    def throttle(self, bytes_per_second: float | None, direction: Directions = "both") -> None:
+        """Let no more than so many bytes pass in a second; ``None`` ends it."""
+        rate = bytes_per_second
+        if rate is not None and not 0 < rate < math.inf:
+            raise ValueError(f"bytes_per_second must be positive or None, got {rate!r}")
+        self._change(direction, rate=rate)
+
+    def delay(self, seconds: float, direction: Directions = "both") -> None:
+        """Let every byte, and the end, come so much later than it would; 0 ends it.
+
+        No more than 64 KiB are on their way in a direction, so a delay bounds the rate too.
+        """
+        if not 0 <= seconds < math.inf:
+            raise ValueError(f"seconds must not be negative, got {seconds!r}")
+        self._change(direction, delay=seconds)
+
+    def corrupt(
+        self, probability: float, direction: Directions = "both", *, seed: int | None = None
+    ) -> None:
+        """Change each byte to another one with this probability; 0 ends it.
+
+        With a ``seed``, the same bytes of the same connection are changed in every run.
+        """
+        if not 0 <= probability <= 1:
+            raise ValueError(f"probability must be from 0 to 1, got {probability!r}")
+        self._change(direction, corruption=probability, seed=seed)
+
+    def _change(self, direction: Directions, **changes: Any) -> None:
+        raise NotImplementedError
+
+
+def directions(direction: Directions) -> tuple[Direction, ...]:
+    """The one, or both. Raises :class:`ValueError` for anything else."""
+    if direction == "both":
+        return _BOTH
+    if direction not in _BOTH:
+        raise ValueError(f"direction must be 'up', 'down' or 'both', got {direction!r}")
+    return (direction,)
+
+
+class FlakyConnection(Flaky):
+    """One connection of a client, through the proxy, to the server.
+
+    ``number`` counts the connections of a proxy from 1; ``client`` is the address it came
+    from.
+    """
+
+    def __init__(
+        self,
+        sock: socket.socket,
+        client: tuple[str, int],
+        number: int,
+        faults: dict[Direction, Faults],
+        on_closed: Callable[[FlakyConnection], None],
+    ) -> None:
+        self.number = number
+        self.client = client
+        self.is_open = True
+        self._loop = asyncio.get_running_loop()
+        self._on_closed = on_closed
+        self._closed = Waiters()
+        self._sockets = [sock]
+        self._flows = {way: Flow(way, number, faults[way], self._ended, self.cut) for way in _BOTH}
+
+    def __repr__(self) -> str:
+        state = "open" if self.is_open else "closed"
+        host, port = self.client
+        return f"<{type(self).__name__} {self.number} from {host}:{port}, {state}>"
+
+    @property
+    def bytes_up(self) -> int:
+        """How many bytes have passed from the client to the server."""
+        return self._flows["up"].passed
+
+    @property
+    def bytes_down(self) -> int:
+        """How many bytes have passed from the server to the client."""
+        return self._flows["down"].passed
+
+    async def passed(self, bytes: int, direction: Direction) -> None:
+        """Wait until so many bytes, since the connection was made, have passed.
+
+        They have been handed to the system, towards their receiver. The byte after them has
+        not, and will not before the waiting task had its turn: a fault that it sets in its
+        next step begins exactly there. Returns at once if as many have passed already.
+
+        Raises :class:`ConnectionError` when this direction ends before.
+        """
+        if direction not in _BOTH:
+            raise ValueError(f"direction must be 'up' or 'down', got {direction!r}")
+        await self._flows[direction].wait_passed(bytes)
+
+    async def wait_closed(self) -> None:
+        """Wait until the connection has ended, whoever ended it."""
+        await self._closed.wait_until(lambda: not self.is_open, timeout=None, what="")
+
+    def cut(self) -> None:
+        """Reset the connection, to both sides."""
+        self._end(reset=True)
+
+    def close(self) -> None:
+        """End the connection towards both sides in good order; what has not passed is lost."""
+        self._end(reset=False)
+
+    def shut(self, direction: Directions) -> None:
+        """End one direction towards its receiver; the other one goes on.
+
+        What has not passed, and what the sender sends from now on, is lost.
+        """
+        for way in directions(direction):
+            self._flows[way].shut()
+
+    # for the proxy
+
+    def connect(self, addresses: Sequence[Address], then: Callable[[], object]) -> None:
+        """Connect to the first of ``addresses`` that takes it, call ``then()`` and begin.
+        If none does, the client is reset."""
+        for tried, (family, address) in enumerate(addresses, start=1):
+            sock = socket.socket(family, socket.SOCK_STREAM)
+            sock.setblocking(False)
+            if sock.connect_ex(address) in (0, errno.EINPROGRESS):
+                self._sockets.append(sock)
+                self._loop.add_writer(sock, self._connected, addresses[tried:], then)
+                return
+            sock.close()
+        self.cut()
+
+    def _connected(self, others: Sequence[Address], then: Callable[[], object]) -> None:
+        client, server = self._sockets
+        self._loop.remove_writer(server)
+        if server.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR):
+            self._sockets.pop().close()
+            self.connect(others, then)
+            return
+        for sock in self._sockets:
+            sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        then()
+        self._flows["up"].begin(client, server)
+        self._flows["down"].begin(server, client)
+
+    def _change(self, direction: Directions, **changes: Any) -> None:
+        for way in directions(direction):
+            self._flows[way].change(**changes)
+
+    def _ended(self) -> None:
+        if all(flow.ended for flow in self._flows.values()):
+            self.close()
+
+    def _end(self, *, reset: bool) -> None:
+        if not self.is_open:
+            return
+        self.is_open = False
+        for flow in self._flows.values():
+            flow.stop()
+        for sock in self._sockets:
+            self._loop.remove_writer(sock)  # it may still be connecting
+            with contextlib.suppress(OSError):  # what is reset already has no options
+                if reset:
+                    sock.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+                else:
+                    _read_away(sock)
+            sock.close()
+        self._closed.wake()
+        self._on_closed(self)
+
+
+def _read_away(sock: socket.socket) -> None:
+    """Take what has come: the system resets a connection that is closed with bytes unread."""
+    for _ in range(100):
+        if not sock.recv(ROOM):
+            return

@@ -1,0 +1,279 @@
+"""A TCP proxy that misbehaves on purpose."""
+
+from __future__ import annotations
+
+import asyncio
+import errno
+import os
+import socket
+from collections.abc import Awaitable, Callable
+from dataclasses import replace
+from types import TracebackType
+from typing import Any, Self
+
+from aioros1.errors import ClosedError
+from aioros1.net.hosts import resolve, uri_host
+from aioros1.testing.flaky_connection import (
+    Address,
+    Directions,
+    Flaky,
+    FlakyConnection,
+    directions,
+)
+from aioros1.testing.flow import ConnectionLost, Direction, Faults
+from aioros1.waiting import Waiters
+
+__all__ = ["FlakyProxy", "Script"]
+
+Script = Callable[[FlakyConnection], Awaitable[object]]
+"""What happens to a connection; called for each, in a task of its own."""
+
+_GONE_BEFORE = (errno.ECONNABORTED, errno.EINTR)
+
+
+class FlakyProxy(Flaky):
+    """A TCP proxy before ``host`` and ``port``, that does to connections what it is told.
+
+    ::
+
+        async with FlakyProxy("127.0.0.1", 11311) as proxy:
+            ...  # connect to proxy.host and proxy.port
+            proxy.stall("down")
+
+    It listens at ``listen_host`` and ``listen_port`` (0 takes a free one) while the block
+    runs; entering raises :class:`OSError` if that is taken. Leaving it closes all connections.
+
+    The faults (:meth:`stall`, :meth:`throttle`, :meth:`delay`, :meth:`corrupt`) are for the
+    connections that are open and for those to come; a :class:`FlakyConnection` has the same
+    for itself, and of two that contradict each other the later one holds. A connection that
+    the server refuses is reset. What a side ends or resets, is ended or reset on the other.
+
+    ``script(connection)`` is called for each new connection once it has reached the server,
+    and runs to its first pause before any byte passes. An exception of it ends the block,
+    which raises it (several at once as an :class:`ExceptionGroup`); only the
+    :class:`ConnectionError` of :meth:`FlakyConnection.passed` is none. A script that still
+    runs when the block ends is cancelled.
+
+    The event loop must be able to watch sockets; the one for I/O completion ports of Windows
+    is not.
+    """
+
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        *,
+        listen_host: str = "127.0.0.1",
+        listen_port: int = 0,
+        script: Script | None = None,
+    ) -> None:
+        self.host = listen_host
+        """Where it listens."""
+        self.port = listen_port
+        """The port there; known for certain while the block runs."""
+        self.accepted = 0
+        """How many connections have come so far."""
+        self._target = host, port
+        self._addresses: list[Address] = []
+        self._script = script
+        self._scripts: set[asyncio.Task[None]] = set()
+        self._failures: list[BaseException] = []
+        self._connections: dict[int, FlakyConnection] = {}
+        self._faults: dict[Direction, Faults] = {"up": Faults(), "down": Faults()}
+        self._half_open = False
+        self._socket: socket.socket | None = None
+        self._family = socket.AF_INET
+        self._listening = False
+        self._waiters = Waiters()
+        self._user: asyncio.Task[Any] | None = None
+        self._user_cancelled = False
+        self._entered = False
+
+    def __repr__(self) -> str:
+        here, there = ((uri_host(host), port) for host, port in (self._own, self._target))
+        return f"<FlakyProxy at {here[0]}:{here[1]} before {there[0]}:{there[1]}>"
+
+    async def __aenter__(self) -> Self:
+        if self._entered:
+            raise RuntimeError(f"{self!r} cannot be used a second time")
+        self._entered = True
+        self._loop = asyncio.get_running_loop()
+        self._user = asyncio.current_task()
+        host, port = self._target
+        self._addresses = [(family, (name, port)) for family, name in await resolve(host, port)]
+        self._family, self.host = (await resolve(self.host, self.port))[0]
+        self._socket = self._bound()
+        self.port = self._socket.getsockname()[1]
+        try:
+            self.accept()
+        except BaseException:
+            self._socket.close()
+            raise
+        return self
+
+    async def __aexit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        user, self._user = self._user, None
+        assert user is not None
+        if self._user_cancelled:
+            user.uncancel()  # it was ours
+        self._stop_listening()
+        self._waiters.fail(ClosedError(f"{self!r} is closed"))
+        for connection in self.connections:
+            connection.close()
+        tasks = list(self._scripts)
+        for task in tasks:
+            task.cancel()
+        if tasks:
+            await asyncio.wait(tasks)
+        for task in tasks:
+            self._script_ended(task)  # those that had ended before are not told of yet
+        if len(self._failures) == 1:
+            raise self._failures[0]
+        if self._failures:
+            raise BaseExceptionGroup(f"scripts of {self!r} failed", self._failures)
+
+    # connections
+
+    @property
+    def connections(self) -> tuple[FlakyConnection, ...]:
+        """Those that are open, the oldest first."""
+        return tuple(self._connections.values())
+
+    async def wait_accepted(self, n: int) -> None:
+        """Wait until ``n`` connections have come in all.
+
+        Raises :class:`~aioros1.ClosedError` when the proxy is closed.
+        """
+        await self._waiters.wait_until(lambda: self.accepted >= n, timeout=None, what="")
+
+    def cut(self) -> None:
+        """Reset every connection, to both sides. New ones are still taken."""
+        self._take_waiting()
+        for connection in self.connections:
+            connection.cut()
+
+    def refuse(self) -> None:
+        """Refuse new connections, as if nothing listened; those that are open go on.
+
+        Nobody else gets the port meanwhile.
+        """
+        if self._listening:
+            self._take_waiting()
+            self._stop_listening()
+            self._socket = self._bound()
+
+    def accept(self) -> None:
+        """Take new connections again, at the same port."""
+        if self._socket is not None and not self._listening:
+            self._socket.listen(512)
+            self._loop.add_reader(self._socket, self._take_waiting)
+            self._listening = True
+
+    def half_open(self, enabled: bool = True) -> None:
+        """Take new connections from now on, but do nothing with them: there is no connection
+        to the server, nothing is read and nothing is said, as of a program that hangs.
+
+        ``half_open(False)`` ends it for the connections after that.
+        """
+        self._take_waiting()
+        self._half_open = enabled
+
+    # inside
+
+    @property
+    def _own(self) -> tuple[str, int]:
+        return self.host, self.port
+
+    def _bound(self) -> socket.socket:
+        """A socket that has the port, but does not listen, so that connecting is refused."""
+        sock = socket.socket(self._family, socket.SOCK_STREAM)
+        try:
+            sock.setblocking(False)
+            if os.name == "posix":  # connections through the port may still be open
+                sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            sock.bind(self._own)
+        except OSError as error:
+            sock.close()
+            where = f"{uri_host(self.host)}:{self.port}"
+            text = f"cannot listen on {where}: {error.strerror or error}"
+            raise OSError(error.errno, text) from None
+        except BaseException:
+            sock.close()
+            raise
+        return sock
+
+    def _stop_listening(self) -> None:
+        if self._socket is not None:
+            if self._listening:
+                self._loop.remove_reader(self._socket)
+                self._listening = False
+            self._socket.close()
+            self._socket = None
+
+    def _take_waiting(self) -> None:
+        while self._listening:
+            assert self._socket is not None
+            try:
+                sock, address = self._socket.accept()
+            except BlockingIOError:
+                return
+            except OSError as error:
+                if error.errno not in _GONE_BEFORE:
+                    # Later, because whoever called this is not to be cancelled inside.
+                    self._stop_listening()
+                    self._loop.call_soon(self._fail, error)
+                continue
+            sock.setblocking(False)
+            self._take(sock, address[:2])
+
+    def _take(self, sock: socket.socket, client: tuple[str, int]) -> None:
+        self.accepted += 1
+        number = self.accepted
+        connection = FlakyConnection(sock, client, number, self._faults, self._closed)
+        self._connections[number] = connection
+        if self._half_open:
+            self._run_script(connection)
+        else:
+            connection.connect(self._addresses, lambda: self._run_script(connection))
+        self._waiters.wake()
+
+    def _closed(self, connection: FlakyConnection) -> None:
+        del self._connections[connection.number]
+
+    def _change(self, direction: Directions, **changes: Any) -> None:
+        self._take_waiting()
+        for way in directions(direction):
+            self._faults[way] = replace(self._faults[way], **changes)
+        for connection in self.connections:
+            connection._change(direction, **changes)
+
+    def _run_script(self, connection: FlakyConnection) -> None:
+        if self._script is not None:
+            name = f"script of {connection!r}"
+            task = self._loop.create_task(self._call(self._script, connection), name=name)
+            self._scripts.add(task)
+            task.add_done_callback(self._script_ended)
+
+    async def _call(self, script: Script, connection: FlakyConnection) -> None:
+        try:
+            await script(connection)
+        except* ConnectionLost:
+            pass  # the end of a connection is nothing that scripts have to expect
+
+    def _script_ended(self, task: asyncio.Task[None]) -> None:
+        if task not in self._scripts:
+            return
+        self._scripts.remove(task)
+        if not task.cancelled() and (error := task.exception()) is not None:
+            self._fail(error)
+
+    def _fail(self, error: BaseException) -> None:
+        """End the user's block."""
+        self._failures.append(error)
+        if self._user is not None and not self._user_cancelled:
+            self._user_cancelled = self._user.cancel()
