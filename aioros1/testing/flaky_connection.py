@@ -109,7 +109,10 @@ class FlakyConnection(Flaky):
         self._on_closed = on_closed
         self._closed = Waiters()
         self._sockets = [sock]
-        self._flows = {way: Flow(way, number, faults[way], self._ended, self.cut) for way in _BOTH}
+        self._flows: dict[Direction, Flow] = {
+            "up": Flow("up", number, faults["up"], self._ended, self.cut),
+            "down": Flow("down", number, faults["down"], self._ended, self.cut, sink=sock),
+        }
 
     def __repr__(self) -> str:
         state = "open" if self.is_open else "closed"

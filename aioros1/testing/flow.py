@@ -65,6 +65,8 @@ class Flow:
         faults: Faults,
         on_end: Callable[[], None],
         on_loss: Callable[[], None],
+        *,
+        sink: socket.socket | None = None,
     ) -> None:
         self.passed = 0
         self.ended = False  # the receiver was told so
@@ -73,7 +75,7 @@ class Flow:
         self._on_loss = on_loss
         self._loop = asyncio.get_running_loop()
         self._source: socket.socket | None = None
-        self._sink: socket.socket | None = None
+        self._sink = sink
         self._queue: deque[tuple[float, memoryview]] = deque()  # when it came; b"" is the end
         self._queued = 0
         self._harmed = 0  # bytes at the head of the queue that went through the corruption

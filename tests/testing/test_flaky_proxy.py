@@ -3,158 +3,29 @@
 from __future__ import annotations
 
 import asyncio
+import math
+import os
 import socket
-from collections.abc import AsyncIterator
+import subprocess
+import sys
+import time
+import tracemalloc
 
 import pytest
 
-from aioros1.testing import FlakyConnection, FlakyProxy
+import aioros1
+from aioros1.testing import FlakyProxy, flow
 
-PATIENCE = 10.0
-"""Seconds until a test that waits gives up; never reached when all is well."""
+from .ends import PATIENCE, other
 
 WAYS = pytest.mark.parametrize("way", ["up", "down"])
 MEGABYTE = bytes(range(256)) * 4096
+MORE_THAN_THE_SYSTEM_HOLDS = MEGABYTE * 32
 
 
-class End:
-    """One end of a connection."""
-
-    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self.reader = reader
-        self.writer = writer
-        writer.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-
-    def write(self, data: bytes) -> None:
-        self.writer.write(data)
-
-    async def send(self, data: bytes) -> None:
-        self.writer.write(data)
-        async with asyncio.timeout(PATIENCE):
-            await self.writer.drain()
-
-    async def take(self, count: int) -> bytes:
-        async with asyncio.timeout(PATIENCE):
-            return await self.reader.readexactly(count)
-
-    async def rest(self) -> bytes:
-        """Everything until the end, which has to be in good order."""
-        async with asyncio.timeout(PATIENCE):
-            return await self.reader.read()
-
-    async def until_reset(self) -> bytes:
-        """Everything until the connection is reset."""
-        data = b""
-        with pytest.raises(ConnectionResetError):
-            async with asyncio.timeout(PATIENCE):
-                while True:
-                    piece = await self.reader.read(1 << 16)
-                    assert piece, "it was closed, not reset"
-                    data += piece
-        return data
-
-    async def hears_nothing(self) -> bool:
-        """Whether nothing comes, while the loop and the system do all they have to do."""
-        try:
-            async with asyncio.timeout(0.05):
-                await self.reader.readexactly(1)
-        except TimeoutError:
-            return True
-        return False
-
-
-class Server:
-    """Listens, and hands out its ends of the connections, in their order."""
-
-    def __init__(self) -> None:
-        self.ends: asyncio.Queue[End] = asyncio.Queue()
-        self.all: list[End] = []
-        self.port = 0
-
-    def came(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self.all.append(End(reader, writer))
-        self.ends.put_nowait(self.all[-1])
-
-    async def end(self) -> End:
-        async with asyncio.timeout(PATIENCE):
-            return await self.ends.get()
-
-
-@pytest.fixture
-async def server() -> AsyncIterator[Server]:
-    server = Server()
-    listening = await asyncio.start_server(server.came, "127.0.0.1", 0)
-    server.port = listening.sockets[0].getsockname()[1]
-    yield server
-    listening.close()
-    for end in server.all:
-        end.writer.transport.abort()
-    await turns()
-
-
-@pytest.fixture
-async def clients() -> AsyncIterator[list[End]]:
-    clients: list[End] = []
-    yield clients
-    for end in clients:
-        end.writer.transport.abort()
-    await turns()
-
-
-async def turns() -> None:
-    for _ in range(5):  # event loops close things in a later turn
-        await asyncio.sleep(0)
-
-
-@pytest.fixture
-def client_of(clients):
-    async def connect(proxy: FlakyProxy) -> End:
-        async with asyncio.timeout(PATIENCE):
-            end = End(*await asyncio.open_connection(proxy.host, proxy.port))
-        clients.append(end)
-        return end
-
-    return connect
-
-
-@pytest.fixture
-async def proxy(server) -> AsyncIterator[FlakyProxy]:
-    async with FlakyProxy("127.0.0.1", server.port) as proxy:
-        yield proxy
-
-
-class Pair:
-    """Both ends of a connection through a proxy, and the connection in it."""
-
-    def __init__(self, client: End, server: End, connection: FlakyConnection) -> None:
-        self.client, self.server, self.connection = client, server, connection
-
-    def ends(self, way: str) -> tuple[End, End]:
-        """Who sends, and who receives."""
-        both = self.client, self.server
-        return both if way == "up" else both[::-1]
-
-    def passed(self, way: str) -> int:
-        return self.connection.bytes_up if way == "up" else self.connection.bytes_down
-
-
-@pytest.fixture
-def pair_of(server, client_of):
-    async def make(proxy: FlakyProxy) -> Pair:
-        client = await client_of(proxy)
-        end = await server.end()
-        return Pair(client, end, proxy.connections[-1])
-
-    return make
-
-
-@pytest.fixture
-async def pair(proxy, pair_of) -> Pair:
-    return await pair_of(proxy)
-
-
-def other(way: str) -> str:
-    return "down" if way == "up" else "up"
+def open_files() -> int:
+    """How many files and sockets the process has open, where that can be seen."""
+    return len(os.listdir("/proc/self/fd")) if sys.platform.startswith("linux") else 0
 
 
 # without a fault
@@ -168,16 +39,409 @@ async def test_everything_passes_as_it_was_sent(pair, way):
     assert (pair.passed(way), pair.passed(other(way))) == (8 << 20, 0)
 
 
-async def test_the_proxy_tells_of_its_connections(proxy, client_of):
+async def test_both_ways_at_once(pair):
+    pair.client.write(MEGABYTE * 4)
+    pair.server.write(MEGABYTE[::-1] * 4)
+    up, down = await asyncio.gather(pair.server.take(4 << 20), pair.client.take(4 << 20))
+    assert up == MEGABYTE * 4
+    assert down == MEGABYTE[::-1] * 4
+
+
+async def test_it_tells_of_its_connections(proxy, ends):
     assert (proxy.connections, proxy.accepted) == ((), 0)
-    first = await client_of(proxy)
-    await client_of(proxy)
+    client = await ends.client(proxy)
+    await ends.client(proxy)
     async with asyncio.timeout(PATIENCE):
         await proxy.wait_accepted(2)
     assert proxy.accepted == 2
     assert [each.number for each in proxy.connections] == [1, 2]
-    connection = proxy.connections[0]
-    assert connection.client == first.writer.get_extra_info("sockname")
-    assert repr(connection).endswith("open>")
-    first.writer.close()
-    await first.rest()
+    first = proxy.connections[0]
+    assert first.client == client.writer.get_extra_info("sockname")
+    assert repr(first) == f"<FlakyConnection 1 from 127.0.0.1:{first.client[1]}, open>"
+    proxy.cut()
+    assert proxy.connections == ()
+    assert proxy.accepted == 2
+    assert not first.is_open
+
+
+@WAYS
+async def test_the_end_passes_and_the_other_way_goes_on(pair, proxy, way):
+    sender, receiver = pair.ends(way)
+    sender.write(b"last")
+    sender.writer.write_eof()
+    assert await receiver.rest() == b"last"
+    receiver.write(MEGABYTE)
+    assert await sender.take(1 << 20) == MEGABYTE
+    assert pair.connection.is_open
+    receiver.writer.close()
+    assert await sender.rest() == b""
+    await pair.connection.wait_closed()
+    assert proxy.connections == ()
+
+
+@WAYS
+async def test_a_reset_passes(pair, way):
+    sender, receiver = pair.ends(way)
+    sender.reset()
+    assert await receiver.until_reset() == b""
+    await pair.connection.wait_closed()
+
+
+async def test_a_client_is_reset_when_the_server_refuses(ends):
+    with socket.socket() as nobody:
+        nobody.bind(("127.0.0.1", 0))
+        async with FlakyProxy("127.0.0.1", nobody.getsockname()[1]) as proxy:
+            client = await ends.client(proxy)
+            assert await client.until_reset() == b""
+            assert (proxy.connections, proxy.accepted) == ((), 1)
+
+
+async def test_all_addresses_of_the_server_are_tried(ends, server):
+    """``localhost`` is 127.0.0.1 and ::1; nothing listens at the first."""
+    try:
+        listening = await asyncio.start_server(server.came, "::1", 0)
+    except OSError:
+        pytest.skip("needs IPv6")
+    async with FlakyProxy("localhost", listening.sockets[0].getsockname()[1]) as proxy:
+        assert await (await ends.pair(proxy)).is_whole()
+    listening.close()
+
+
+async def test_it_listens_where_it_is_told(ends, server):
+    async with FlakyProxy("localhost", server.port, listen_host="localhost") as first:
+        assert first.host == "127.0.0.1"
+        place = f"127.0.0.1:{first.port}"
+        assert repr(first) == f"<FlakyProxy at {place} before localhost:{server.port}>"
+        with pytest.raises(OSError, match=f"cannot listen on {place}: .+"):
+            async with FlakyProxy("127.0.0.1", server.port, listen_port=first.port):
+                pass
+    async with FlakyProxy("127.0.0.1", server.port, listen_port=first.port) as second:
+        assert await (await ends.pair(second)).is_whole()
+
+
+@WAYS
+async def test_nothing_is_left_of_it(ends, server, way):
+    files = open_files()
+    async with FlakyProxy("127.0.0.1", server.port) as proxy:
+        pair = await ends.pair(proxy)
+        sender, receiver = pair.ends(way)
+        proxy.delay(1000, way)
+        proxy.throttle(1, other(way))
+        sender.write(MORE_THAN_THE_SYSTEM_HOLDS)
+        receiver.write(MEGABYTE)
+        waiting = asyncio.create_task(proxy.wait_accepted(2))
+        await asyncio.sleep(0)
+    with pytest.raises(aioros1.ClosedError, match="is closed"):
+        await waiting
+    with pytest.raises(ConnectionRefusedError):
+        await ends.client(proxy)
+    assert not pair.connection.is_open
+    for end in (pair.client, pair.server):
+        end.writer.transport.abort()
+    async with asyncio.timeout(PATIENCE):
+        while open_files() > files:
+            await asyncio.sleep(0.001)
+
+
+async def test_closing_is_in_good_order(ends, server):
+    async with FlakyProxy("127.0.0.1", server.port) as proxy:
+        pair = await ends.pair(proxy)
+    assert await pair.client.rest() == b""
+    assert await pair.server.rest() == b""
+
+
+async def test_it_is_used_once(proxy):
+    with pytest.raises(RuntimeError, match="cannot be used a second time"):
+        async with proxy:
+            pass
+
+
+# cut, close, shut
+
+
+@WAYS
+async def test_cut(pair, proxy, ends, way):
+    sender, receiver = pair.ends(way)
+    sender.write(b"1")
+    await receiver.take(1)
+    proxy.cut()
+    for end in (sender, receiver):
+        assert await end.until_reset() == b""
+    assert await (await ends.pair(proxy)).is_whole()
+
+
+async def test_cut_a_connection_that_has_only_just_come(proxy, ends):
+    client = await ends.client(proxy)
+    proxy.cut()
+    assert proxy.accepted == 1
+    assert await client.until_reset() == b""
+
+
+async def test_one_connection_is_cut(pair, proxy, ends):
+    second = await ends.pair(proxy)
+    pair.connection.cut()
+    pair.connection.cut()
+    assert await pair.client.until_reset() == b""
+    assert proxy.connections == (second.connection,)
+    assert await second.is_whole()
+
+
+async def test_close_is_no_reset_even_if_something_was_not_read(pair):
+    pair.connection.stall()
+    pair.client.write(MEGABYTE[:1000])
+    pair.server.write(MEGABYTE[:1000])
+    assert await pair.server.hears_nothing()
+    pair.connection.close()
+    assert await pair.client.rest() == b""
+    assert await pair.server.rest() == b""
+
+
+@WAYS
+async def test_shut(pair, way):
+    sender, receiver = pair.ends(way)
+    pair.connection.shut(way)
+    assert await receiver.rest() == b""
+    sender.write(MORE_THAN_THE_SYSTEM_HOLDS)  # nobody will hear it, and it is no obstacle
+    async with asyncio.timeout(PATIENCE):
+        await sender.writer.drain()
+    receiver.write(b"still there")
+    assert await sender.take(11) == b"still there"
+    assert pair.passed(way) == 0
+    receiver.writer.close()
+    assert await sender.rest() == b""
+    await pair.connection.wait_closed()
+
+
+# stall
+
+
+@WAYS
+async def test_stall_and_resume(pair, proxy, ends, way):
+    sender, receiver = pair.ends(way)
+    proxy.stall(way)
+    later = await ends.pair(proxy)
+    for each in (pair, later):
+        sender, receiver = each.ends(way)
+        sender.write(b"abc")
+        sender.writer.write_eof()
+        receiver.write(b"back")
+        assert await sender.take(4) == b"back"
+        assert await receiver.hears_nothing()
+        assert each.connection.is_open
+    proxy.resume(way)
+    for each in (pair, later):
+        assert await each.ends(way)[1].rest() == b"abc"
+
+
+@WAYS
+async def test_a_stall_is_felt_by_the_sender(pair, way):
+    sender, receiver = pair.ends(way)
+    pair.connection.stall()
+    sender.write(MORE_THAN_THE_SYSTEM_HOLDS)
+    with pytest.raises(TimeoutError):
+        async with asyncio.timeout(0.05):
+            await sender.writer.drain()
+    pair.connection.resume()
+    assert await receiver.take(len(MORE_THAN_THE_SYSTEM_HOLDS)) == MORE_THAN_THE_SYSTEM_HOLDS
+
+
+async def test_a_connection_has_faults_of_its_own(pair, proxy, ends):
+    second = await ends.pair(proxy)
+    pair.connection.stall()
+    assert await second.is_whole()
+    proxy.stall()
+    second.connection.resume()
+    assert await second.is_whole()
+    pair.client.write(b"x")
+    assert await pair.server.hears_nothing()
+
+
+# throttle and delay: lower bounds alone, which hold on the slowest machine
+
+
+@WAYS
+async def test_throttle(pair, proxy, way):
+    sender, receiver = pair.ends(way)
+    start = time.monotonic()
+    proxy.throttle(1_000_000, way)
+    sender.write(MEGABYTE[:200_000])
+    assert await receiver.take(200_000) == MEGABYTE[:200_000]
+    assert time.monotonic() - start >= 0.15  # a little passes at once
+    proxy.throttle(0.001, way)
+    sender.write(b"x" * 1000)
+    await receiver.take(1)
+    assert await receiver.hears_nothing()
+    assert pair.passed(way) == 200_001
+    receiver.write(b"as quick as ever")
+    assert await sender.take(16) == b"as quick as ever"
+    proxy.throttle(None, way)
+    assert await receiver.take(999) == b"x" * 999
+
+
+@WAYS
+async def test_delay(pair, proxy, way):
+    sender, receiver = pair.ends(way)
+    proxy.delay(0.1, way)
+    start = time.monotonic()
+    sender.write(b"first, ")
+    await asyncio.sleep(0.05)
+    second = time.monotonic()
+    sender.write(b"second")
+    sender.writer.write_eof()
+    assert await receiver.take(7) == b"first, "
+    assert time.monotonic() - start >= 0.1
+    assert await receiver.rest() == b"second"
+    assert time.monotonic() - second >= 0.1
+    receiver.write(b"at once")
+    assert await sender.take(7) == b"at once"
+
+
+@WAYS
+async def test_order_is_kept_when_a_delay_becomes_shorter(pair, way):
+    sender, receiver = pair.ends(way)
+    pair.connection.delay(1000, way)
+    sender.write(b"one ")
+    assert await receiver.hears_nothing()
+    pair.connection.delay(0.02, way)
+    sender.write(b"two ")
+    pair.connection.delay(0)
+    sender.write(b"three")
+    assert await receiver.take(13) == b"one two three"
+
+
+@pytest.mark.parametrize("size", [1, 1 << 16])
+async def test_memory_is_bounded(pair, size):
+    """However much is sent, and in however small pieces."""
+    pair.connection.delay(1000)
+    tracemalloc.start()
+    try:
+        for _ in range(2000):
+            pair.client.write(b"x" * size)
+            await asyncio.sleep(0)
+        assert await pair.server.hears_nothing()
+        snapshot = tracemalloc.take_snapshot()
+    finally:
+        tracemalloc.stop()
+    held = snapshot.filter_traces([tracemalloc.Filter(True, flow.__file__)])
+    assert sum(each.size for each in held.statistics("filename")) < 2 * flow.ROOM
+
+
+# corrupt
+
+
+@WAYS
+async def test_corrupt_every_byte(pair, proxy, way):
+    sender, receiver = pair.ends(way)
+    proxy.corrupt(1, way)
+    sender.write(MEGABYTE)
+    received = await receiver.take(1 << 20)
+    assert all(there != here for there, here in zip(received, MEGABYTE, strict=True))
+    receiver.write(MEGABYTE)
+    assert await sender.take(1 << 20) == MEGABYTE
+    proxy.corrupt(0, way)
+    sender.write(MEGABYTE)
+    assert await receiver.take(1 << 20) == MEGABYTE
+
+
+@pytest.mark.parametrize("probability", [0.5, 0.01, 1e-300])
+async def test_corrupt_some_bytes(pair, probability):
+    pair.connection.corrupt(probability, seed=1)
+    pair.client.write(MEGABYTE)
+    received = await pair.server.take(1 << 20)
+    changed = sum(there != here for there, here in zip(received, MEGABYTE, strict=True))
+    mean = probability * (1 << 20)
+    assert abs(changed - mean) <= 6 * math.sqrt(mean)
+
+
+async def test_a_seed_makes_it_repeatable_whatever_the_pieces(ends, server):
+    async def received(size: int) -> list[bytes]:
+        """What two connections carry of the same, sent in pieces of ``size``."""
+        results = []
+        async with FlakyProxy("127.0.0.1", server.port) as proxy:
+            proxy.corrupt(0.1, seed=17)
+            for _ in range(2):
+                pair = await ends.pair(proxy)
+                for start in range(0, 10_000, size):
+                    pair.client.write(MEGABYTE[start : start + size])
+                    await pair.connection.passed(start + size, "up")
+                results.append(await pair.server.take(10_000))
+        return results
+
+    whole, pieces = await received(10_000), await received(100)
+    assert whole == pieces
+    assert whole[0] != whole[1]  # or a second attempt would always fail as the first
+
+
+# refuse and half_open
+
+
+async def test_refuse_and_accept(pair, proxy, ends):
+    waiting = await ends.client(proxy)  # connected before
+    port = proxy.port
+    proxy.refuse()
+    proxy.refuse()
+    with pytest.raises(ConnectionRefusedError):
+        await ends.client(proxy)
+    with socket.socket() as other, pytest.raises(OSError, match="in use"):
+        other.bind((proxy.host, port))
+    assert await pair.is_whole()
+    waiting.write(b"me too")
+    assert await (await ends.server.end()).take(6) == b"me too"
+    proxy.accept()
+    proxy.accept()
+    assert proxy.port == port
+    assert await (await ends.pair(proxy)).is_whole()
+    assert proxy.accepted == 3
+
+
+async def test_half_open(pair, proxy, ends, server):
+    waiting = await ends.client(proxy)  # connected before
+    proxy.half_open(True)
+    client = await ends.client(proxy)
+    client.write(MORE_THAN_THE_SYSTEM_HOLDS)
+    assert await client.hears_nothing()
+    waiting.write(b"me too")
+    assert await (await server.end()).take(6) == b"me too"
+    assert len(server.all) == 2
+    assert len(proxy.connections) == 3
+    assert await pair.is_whole()
+    silent = proxy.connections[-1]
+    silent.stall()
+    silent.resume()
+    silent.shut("down")
+    assert await client.rest() == b""
+    silent.cut()
+    proxy.half_open(False)
+    assert await (await ends.pair(proxy)).is_whole()
+
+
+# mistakes
+
+
+@pytest.mark.parametrize(
+    ("fault", "value"),
+    [
+        ("throttle", 0),
+        ("throttle", math.inf),
+        ("throttle", math.nan),
+        ("delay", -1),
+        ("delay", math.nan),
+        ("corrupt", 1.5),
+        ("corrupt", math.nan),
+        ("stall", "left"),
+    ],
+)
+async def test_what_means_nothing_is_refused(pair, proxy, fault, value):
+    for flaky in (proxy, pair.connection):
+        with pytest.raises(ValueError, match=rf"must .*, got {value!r}$"):
+            getattr(flaky, fault)(value)
+    assert await pair.is_whole()
+
+
+def test_it_is_not_loaded_with_the_library_and_needs_nothing_else():
+    code = (
+        "import sys, aioros1; assert 'aioros1.testing' not in sys.modules\n"
+        "import aioros1.testing; assert aioros1.testing.FlakyProxy\n"
+        "assert not {'aiohttp', 'pytest', 'aioros1.node'} & set(sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=20)
