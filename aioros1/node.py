@@ -46,6 +46,7 @@ from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
+    from aioros1.statistics import Statistics
 
 __all__ = ["Node"]
 
@@ -161,6 +162,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._user: asyncio.Task[Any] | None = None
         self._user_cancelled = False
         self._rosout: Rosout | None = None
+        self._statistics: Statistics | None = None  # once it is published
 
         self._roles = Roles(self)
 
@@ -439,6 +441,10 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         if simulated:
             self._clock.simulate()
             self._spawn(self._clock.follow, self, name=f"{self.name} clock")
+        if await self.get_param("/enable_statistics", False) is True:
+            from aioros1 import statistics  # here, as hardly anybody wants it
+
+            self._spawn(statistics.Statistics(self).run, name=f"{self.name} statistics")
 
     async def _introduce_later(self) -> None:
         await self.wait_for_master()

@@ -70,6 +70,12 @@ class Subscription:
         return TopicOffer(self.name, "*", "*", "")
 
     @property
+    def has_header(self) -> bool:
+        """Whether its messages begin with a header, as far as the subscribers know them."""
+        classes = [sub.message_class for sub in self.subscribers]
+        return any(cls is not None and cls._has_header for cls in classes)
+
+    @property
     def is_used(self) -> bool:
         return bool(self.subscribers)
 
@@ -135,6 +141,8 @@ class Subscription:
         link = frames[-1][0].link
         if link.offer.latching:
             link.latched = frames[-1]
+        if self._node._statistics is not None:
+            self._node._statistics.received(self, frames)
         for sub in self.subscribers:
             sub._offer(frames)
 
@@ -143,6 +151,8 @@ class Subscription:
     async def _register(self) -> None:
         node = self._node
         updates = self._updates
+        for follower in self._followers.values():
+            follower.forgotten()
         uris = await node.master.register_subscriber(self.name, self.type, node.uri)
         # An announcement that overtook this answer is newer than it.
         if updates == self._updates:
@@ -167,14 +177,25 @@ class _Follower:
         self._link: IncomingLink | None = None
         self._stir = asyncio.Event()
         self._leaving = False
+        self._was_forgotten = False
         self._tries_local = True
         self._complaint = ""
 
     def stay(self) -> None:
         """The master lists the publisher, again perhaps: no reason to wait any longer."""
         self._leaving = False
+        self._was_forgotten = False
         self._tries_local = True
         self._stir.set()
+
+    def forgotten(self) -> None:
+        """We register again: the lists to come are of a master that was away, and is
+        perhaps another one, which knows only of those who have registered again as well.
+
+        rospy and roscpp never do. Until the publisher is listed once more, it is the
+        connection alone that tells whether it is still there.
+        """
+        self._was_forgotten = True
 
     def leave(self) -> None:
         """The master lists the publisher no more."""
@@ -293,7 +314,7 @@ class _Follower:
     async def _until_closed(self, link: IncomingLink) -> None:
         """Wait for the end of the connection, or of the publisher's place in the list."""
         while not link.is_closed:
-            if not self._leaving:
+            if not self._leaving or self._was_forgotten:
                 await self._stirred(None)
                 continue
             link.has_progressed()  # from now on

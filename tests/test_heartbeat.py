@@ -82,3 +82,40 @@ async def test_no_heartbeat_if_none_is_wanted(make_node):
     node = await make_node("node", heartbeat=None)
     assert not [task for task in asyncio.all_tasks() if "heartbeat" in task.get_name()]
     assert node.is_open
+
+
+async def test_publishers_that_a_new_master_does_not_know_stay_connected(monkeypatch):
+    """rospy and roscpp never register again; what they publish may come rarely."""
+    monkeypatch.setattr("aioros1.subscription._GRACE", 0.01)
+    async with aioros1.Master(host="localhost", port=0, rosout=False) as old:
+        port = old.port
+        options = {"master_uri": old.uri, "host": "localhost"}
+        publisher = aioros1.Node("publisher", heartbeat=None, **options)
+        subscriber = aioros1.Node("subscriber", heartbeat=0.02, **options)
+        await publisher.start()
+        await subscriber.start()
+        pub = await publisher.advertise("map", String)
+        sub = await subscriber.subscribe("map", String)
+        await pub.wait_for_subscribers(timeout=5)
+        events = subscriber.events()
+    async with aioros1.Master(host="localhost", port=port, rosout=False) as new:
+        await next_of(events, aioros1.MasterRestarted)
+        # Another publisher makes the master tell of all that it knows.
+        async with (
+            aioros1.Node("another", master_uri=new.uri, host="localhost") as another,
+            another.advertise("map", String) as other,
+        ):
+            await other.wait_for_subscribers(timeout=5)
+        async with asyncio.timeout(5):
+            while sub.publisher_count != 1:  # the other one has left
+                await asyncio.sleep(0.01)
+        pub.publish(data="still here")
+        assert (await sub.get(timeout=5)).data == "still here"
+        # Once the new master knows it, its list counts again.
+        await publisher.master.register_publisher(pub.name, pub.type, publisher.uri)
+        await publisher.master.unregister_publisher(pub.name, publisher.uri)
+        async with asyncio.timeout(5):
+            while sub.publisher_count:
+                await asyncio.sleep(0.01)
+        await subscriber.close()
+        await publisher.close()
