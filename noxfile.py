@@ -90,3 +90,10 @@ def fuzz(session: nox.Session) -> None:
     session.run("python", "-m", "pytest", "tests/test_fuzz_corpus.py")
     options = session.posargs or ["--seconds", "20", "--jobs", "2"]
     session.run("python", "fuzz/run.py", "all", *options)
+
+
+@nox.session
+def soak(session: nox.Session) -> None:
+    """Bad things done to nodes and masters, often: ``nox -s soak -- [SCENARIO] --minutes 60``."""
+    session.install(".[uvloop]")
+    session.run("python", "soak/run.py", *session.posargs)

@@ -1,0 +1,18 @@
+"""The scenarios, by name."""
+
+from __future__ import annotations
+
+from soak.scenario import Scenario
+from soak.scenarios import (
+    churn,
+    cut_connections,
+    lossless,
+    many_nodes,
+    master_restarts,
+    stalled_peers,
+)
+
+__all__ = ["SCENARIOS"]
+
+MODULES = (master_restarts, cut_connections, lossless, many_nodes, stalled_peers, churn)
+SCENARIOS: dict[str, Scenario] = {module.SCENARIO.name: module.SCENARIO for module in MODULES}
