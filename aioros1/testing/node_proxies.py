@@ -53,6 +53,8 @@ async def proxies_before(node: Node, *, script: Script | None = None) -> AsyncIt
     """
     if not sys.platform.startswith("linux"):
         raise RuntimeError(f"proxies_before() needs Linux with its 127.0.0.0/8, not {sys.platform}")
+    if not node.is_open:
+        raise RuntimeError(f"proxies_before() needs a node that is started, not {node!r}")
     host, port = node.tcpros_address
     bind = "127.0.0.1" if node.options.bind == "localhost" else node.options.bind
     if bind is None or bind == host or not (_is_ours(host) and _is_ours(bind)):
