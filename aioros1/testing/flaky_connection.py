@@ -164,7 +164,7 @@ class FlakyConnection(Flaky):
 
     # for the proxy
 
-    def connect(self, addresses: Sequence[Address], then: Callable[[], object]) -> None:
+    def _connect(self, addresses: Sequence[Address], then: Callable[[], object]) -> None:
         """Connect to the first of ``addresses`` that takes it, call ``then()`` and begin.
         If none does, the client is reset."""
         for tried, (family, address) in enumerate(addresses, start=1):
@@ -182,7 +182,7 @@ class FlakyConnection(Flaky):
         self._loop.remove_writer(server)
         if server.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR):
             self._sockets.pop().close()
-            self.connect(others, then)
+            self._connect(others, then)
             return
         for sock in self._sockets:
             sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

@@ -52,7 +52,8 @@ class FlakyProxy(Flaky):
     and runs to its first pause before any byte passes. An exception of it ends the block,
     which raises it (several at once as an :class:`ExceptionGroup`); only the
     :class:`ConnectionError` of :meth:`FlakyConnection.passed` is none. A script that still
-    runs when the block ends is cancelled.
+    runs when the block ends is cancelled. The block ends with an :class:`OSError`, too, when
+    no more files can be opened for connections.
 
     The event loop must be able to watch sockets; the one for I/O completion ports of Windows
     is not.
@@ -67,6 +68,8 @@ class FlakyProxy(Flaky):
         listen_port: int = 0,
         script: Script | None = None,
     ) -> None:
+        _check_port("port", port, 1)
+        _check_port("listen_port", listen_port, 0)
         self.host = listen_host
         """Where it listens."""
         self.port = listen_port
@@ -130,8 +133,6 @@ class FlakyProxy(Flaky):
             task.cancel()
         if tasks:
             await asyncio.wait(tasks)
-        for task in tasks:
-            self._script_ended(task)  # those that had ended before are not told of yet
         if len(self._failures) == 1:
             raise self._failures[0]
         if self._failures:
@@ -220,16 +221,15 @@ class FlakyProxy(Flaky):
             assert self._socket is not None
             try:
                 sock, address = self._socket.accept()
+                sock.setblocking(False)
+                self._take(sock, address[:2])
             except BlockingIOError:
                 return
-            except OSError as error:
+            except OSError as error:  # there are no more files, most likely
                 if error.errno not in _GONE_BEFORE:
-                    # Later, because whoever called this is not to be cancelled inside.
                     self._stop_listening()
+                    # Later, because whoever called this is not to be cancelled inside.
                     self._loop.call_soon(self._fail, error)
-                continue
-            sock.setblocking(False)
-            self._take(sock, address[:2])
 
     def _take(self, sock: socket.socket, client: tuple[str, int]) -> None:
         self.accepted += 1
@@ -239,7 +239,7 @@ class FlakyProxy(Flaky):
         if self._half_open:
             self._run_script(connection)
         else:
-            connection.connect(self._addresses, lambda: self._run_script(connection))
+            connection._connect(self._addresses, lambda: self._run_script(connection))
         self._waiters.wake()
 
     def _closed(self, connection: FlakyConnection) -> None:
@@ -266,8 +266,6 @@ class FlakyProxy(Flaky):
             pass  # the end of a connection is nothing that scripts have to expect
 
     def _script_ended(self, task: asyncio.Task[None]) -> None:
-        if task not in self._scripts:
-            return
         self._scripts.remove(task)
         if not task.cancelled() and (error := task.exception()) is not None:
             self._fail(error)
@@ -277,3 +275,8 @@ class FlakyProxy(Flaky):
         self._failures.append(error)
         if self._user is not None and not self._user_cancelled:
             self._user_cancelled = self._user.cancel()
+
+
+def _check_port(name: str, port: int, least: int) -> None:
+    if not isinstance(port, int) or not least <= port <= 65535:
+        raise ValueError(f"{name} must be a number from {least} to 65535, got {port!r}")

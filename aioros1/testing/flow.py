@@ -136,7 +136,7 @@ class Flow:
     def _readable(self) -> None:
         assert self._source is not None
         try:
-            data = self._source.recv(ROOM if self.ended else self._room())
+            data = self._source.recv(self._room())
         except (BlockingIOError, InterruptedError):
             return
         except OSError:
@@ -173,8 +173,8 @@ class Flow:
                 self._on_loss()
                 return
             self._sent(sent)
-        open_for_more = not self._faults.stalled and self._room() > 0
-        self._watch(reading=not self._all_read and (self.ended or open_for_more), writing=blocked)
+        reading = not self._all_read and not self._faults.stalled and self._room() > 0
+        self._watch(reading=reading, writing=blocked)
 
     def _piece(self, came: float, data: memoryview) -> memoryview:
         """What of ``data``, the head of the queue, may be sent at once; with its harm."""

@@ -19,6 +19,9 @@ async def server() -> AsyncIterator[Server]:
     server.port = listening.sockets[0].getsockname()[1]
     yield server
     listening.close()
+    for end in server.all:
+        end.writer.transport.abort()
+    await asyncio.sleep(0)
 
 
 @pytest.fixture

@@ -102,7 +102,9 @@ async def test_all_addresses_of_the_server_are_tried(ends, server):
         listening = await asyncio.start_server(server.came, "::1", 0)
     except OSError:
         pytest.skip("needs IPv6")
-    async with FlakyProxy("localhost", listening.sockets[0].getsockname()[1]) as proxy:
+    port = listening.sockets[0].getsockname()[1]
+    async with FlakyProxy("localhost", port, listen_host="::1") as proxy:
+        assert repr(proxy) == f"<FlakyProxy at [::1]:{proxy.port} before localhost:{port}>"
         assert await (await ends.pair(proxy)).is_whole()
     listening.close()
 
@@ -170,11 +172,21 @@ async def test_cut(pair, proxy, ends, way):
     assert await (await ends.pair(proxy)).is_whole()
 
 
-async def test_cut_a_connection_that_has_only_just_come(proxy, ends):
-    client = await ends.client(proxy)
-    proxy.cut()
-    assert proxy.accepted == 1
-    assert await client.until_reset() == b""
+@pytest.mark.parametrize("act", ["cut", "refuse", "half_open", "stall"])
+async def test_a_connection_that_has_only_just_come(proxy, server, act):
+    """The system has taken it, the event loop has not seen it: it is one all the same."""
+    with socket.socket() as client:
+        client.settimeout(PATIENCE)
+        client.connect((proxy.host, proxy.port))
+        getattr(proxy, act)()
+        assert proxy.accepted == 1
+        assert len(proxy.connections) == (act != "cut")
+        client.setblocking(False)
+        if act == "cut":
+            with pytest.raises(ConnectionResetError):
+                await asyncio.get_running_loop().sock_recv(client, 1)
+        else:
+            await server.end()
 
 
 async def test_one_connection_is_cut(pair, proxy, ends):
@@ -315,7 +327,7 @@ async def test_memory_is_bounded(pair, size):
     pair.connection.delay(1000)
     tracemalloc.start()
     try:
-        for _ in range(2000):
+        for _ in range(2000 if size == 1 else 100):
             pair.client.write(b"x" * size)
             await asyncio.sleep(0)
         assert await pair.server.hears_nothing()
@@ -436,6 +448,40 @@ async def test_what_means_nothing_is_refused(pair, proxy, fault, value):
         with pytest.raises(ValueError, match=rf"must .*, got {value!r}$"):
             getattr(flaky, fault)(value)
     assert await pair.is_whole()
+
+
+@pytest.mark.parametrize(
+    ("ports", "error"),
+    [
+        ((0, 0), "port must be a number from 1 to 65535, got 0"),
+        ((70000, 0), "port must be a number from 1 to 65535, got 70000"),
+        (("http", 0), "port must be a number from 1 to 65535, got 'http'"),
+        ((80, -1), "listen_port must be a number from 0 to 65535, got -1"),
+    ],
+)
+def test_a_port_that_is_none(ports, error):
+    with pytest.raises(ValueError, match=f"^{error}$"):
+        FlakyProxy("localhost", ports[0], listen_port=ports[1])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs limits of resources")
+@pytest.mark.parametrize("files", [0, 1])
+async def test_a_connection_that_cannot_be_taken_ends_the_block(server, files):
+    """There is no file left for it, or only one of the two."""
+    import resource
+
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    with pytest.raises(OSError, match="Too many open files"), socket.socket() as client:
+        client.setblocking(False)
+        async with FlakyProxy("127.0.0.1", server.port) as proxy:
+            next_file = os.dup(0)
+            os.close(next_file)
+            resource.setrlimit(resource.RLIMIT_NOFILE, (next_file + files, limits[1]))
+            try:
+                client.connect_ex((proxy.host, proxy.port))
+                await asyncio.sleep(PATIENCE)
+            finally:
+                resource.setrlimit(resource.RLIMIT_NOFILE, limits)
 
 
 def test_it_is_not_loaded_with_the_library_and_needs_nothing_else():
