@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import random
+import traceback
 from typing import Any
 
 import aioros1
@@ -171,10 +172,10 @@ class _Slot:
         node, self.node = self.node, None
         if node is None:
             return
-        sending, asking = self._tasks[:2]
-        for task in (sending, asking):
+        speaking = self._tasks[:2]
+        for task in speaking:
             task.cancel()
-        await asyncio.gather(sending, asking, return_exceptions=True)
+        await asyncio.gather(*speaking, return_exceptions=True)
         self._model.ends_well(self.life)
         await node.close(timeout=30)
         await self._join()
@@ -188,14 +189,17 @@ class _Slot:
         await self._join()
 
     async def come_and_go(self, over: asyncio.Event, chance: random.Random) -> None:
-        while not over.is_set():
-            await _wait(over, chance.uniform(0.3, 5.0))
-            if self.node is None:
-                await self.start()
-            elif chance.random() < 0.5:
-                await self.stop()
-            else:
-                await self.drop()
+        try:
+            while not over.is_set():
+                await _wait(over, chance.uniform(0.3, 5.0))
+                if self.node is None:
+                    await self.start()
+                elif chance.random() < 0.5:
+                    await self.stop()
+                else:
+                    await self.drop()
+        except Exception:
+            self._model.problems.append(f"{self.name}: {traceback.format_exc()}")
 
     def lacks(self) -> str:
         """Whom it has not found."""
