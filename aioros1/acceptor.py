@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from aioros1.errors import HandshakeError
+from aioros1.net.admission import Admission
 from aioros1.net.local import LocalTransports
 from aioros1.net.tcpros import Listener, Stream, connection_info, take_over
 from aioros1.net.topic_links import OutgoingLink
@@ -27,14 +28,16 @@ class Acceptor:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._listener = Listener(self._serve, node._spawn, limits=node.limits)
+        self._listener = Listener(
+            self._serve, node._spawn, limits=node.limits, allow=node._allow, log=node.log
+        )
         self.local = LocalTransports(node.options.local_transports, self._listener)
         """How else than over TCP topics connect, on both sides."""
 
     @property
-    def refused(self) -> int:
-        """Connections closed because there were too many."""
-        return self._listener.refused
+    def admission(self) -> Admission:
+        """Who was let in, and who was not."""
+        return self._listener.admission
 
     @property
     def port(self) -> int:

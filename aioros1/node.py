@@ -21,7 +21,15 @@ from aioros1.heartbeat import Heartbeat
 from aioros1.identity import Identity
 from aioros1.idl import MessageStore, default_store
 from aioros1.master_proxy import MasterProxy
-from aioros1.net.hosts import bind_address_for, is_loopback, local_address_facing, resolve, uri_host
+from aioros1.net.allow import AllowList
+from aioros1.net.hosts import (
+    bind_address_for,
+    is_loopback,
+    is_wildcard,
+    local_address_facing,
+    resolve,
+    uri_host,
+)
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
 from aioros1.options import (
@@ -64,7 +72,10 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     ``ROS_MASTER_URI`` and ``ROS_HOSTNAME`` or ``ROS_IP``. ``host`` is what others are
     told to connect to; without any of these it is the address of this machine that
     faces the master. ``bind`` is the address to listen on: by default loopback if
-    ``host`` is that, else all. ``argv`` gives the words of a command line, which then
+    ``host`` is that, else all; without ``host``, it is also what others are told, unless it
+    stands for all addresses. ``allow`` names the networks from which connections are taken
+    (``["127.0.0.0/8", "10.0.0.5", "fd00::/8"]``), of all others none; the master, which
+    calls the node, has to be in one of them. ``argv`` gives the words of a command line, which then
     count more than the environment and less than arguments (``__name:=``, ``__ns:=``,
     ``a:=b``, ``_param:=value``). ``remap`` maps names as ``a:=b`` does.
 
@@ -90,6 +101,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         master_uri: str | None = None,
         host: str | None = None,
         bind: str | None = None,
+        allow: Collection[str] | None = None,
         xmlrpc_port: int = 0,
         tcpros_port: int = 0,
         argv: Sequence[str] | None = None,
@@ -106,11 +118,13 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         local_transports: Collection[LocalTransport] = LOCAL_TRANSPORTS,
     ) -> None:
         super().__init__()
+        self._allow = AllowList(allow)
         self.options = NodeOptions(
             namespace=namespace,
             master_uri=master_uri,
             host=host,
             bind=bind,
+            allow=self._allow.networks,
             xmlrpc_port=xmlrpc_port,
             tcpros_port=tcpros_port,
             argv=None if argv is None else tuple(argv),
@@ -146,7 +160,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
 
         self._xmlrpc = XmlRpcClient(timeouts=timeouts, limits=limits)
         self.master = MasterProxy(self._xmlrpc, self.master_uri, self.name)
-        self._server = XmlRpcServer(SlaveApi(self).methods, limits=limits)
+        self._server = XmlRpcServer(SlaveApi(self).methods, limits=limits, allow=self._allow)
         self._acceptor = Acceptor(self)
         self._clock = Clock()
         self._heartbeat = Heartbeat(self)
@@ -299,6 +313,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     def stats(self) -> NodeStats:
         """Sums of what the open roles have counted."""
         stats = [role.stats for role in self._roles.open]
+        doors = (self._acceptor.admission, self._server.admission)
         return NodeStats(
             messages=sum(each.messages for each in stats),
             bytes=sum(each.bytes for each in stats),
@@ -306,7 +321,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             errors=sum(each.errors for each in stats),
             roles=len(stats),
             connections=len(self.connections),
-            connections_refused=self._acceptor.refused,
+            connections_refused=sum(door.refused for door in doors),
+            connections_forbidden=sum(door.forbidden for door in doors),
+            requests_delayed=self._server.delayed,
         )
 
     def resolve_name(self, name: str) -> str:
@@ -409,9 +426,11 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._supervisor.end(reason)
 
     async def _begin(self) -> None:
+        bind = self.options.bind
         if self._host is None:
-            self._host = await self._facing_host()
-        address = self.options.bind or bind_address_for(self._host)
+            told = bind and not is_wildcard(bind)
+            self._host = bind if told else await self._facing_host()
+        address = bind or bind_address_for(self._host)
         await self._acceptor.start(address, self.options.tcpros_port)
         await self._acceptor.local.start()
         await self._server.start(address, self.options.xmlrpc_port)

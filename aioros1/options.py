@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal, get_args
 
 __all__ = [
@@ -52,7 +52,13 @@ class Timeouts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limits:
-    """How much a node or a master accepts from others."""
+    """How much a node or a master accepts from others.
+
+    A host is an address: of the machines behind one router, only the router's is seen. What
+    comes over Unix sockets, or from the same event loop, counts in ``connections`` alone.
+
+    Raises :class:`ValueError` for a limit that is not a positive number.
+    """
 
     header_bytes: int = 1 << 20
     """A connection header. It carries the full message definition, which is over
@@ -65,17 +71,54 @@ class Limits:
     """One message or service request; the limit of roscpp."""
 
     connections: int = 10_000
-    """TCPROS connections accepted at a time."""
+    """TCPROS connections accepted at a time; those beyond are closed at once. More than any
+    node of a real graph has, and few enough for their memory."""
+
+    connections_per_host: int = 5_000
+    """The same for those that come from one host, for TCPROS and for XML-RPC each: half of
+    ``connections``, so that no single host can shut out all others. A graph of hundreds of
+    nodes on one machine stays far below."""
+
+    xmlrpc_connections: int = 10_000
+    """XML-RPC connections accepted at a time. A master has one or two with each node, and
+    these are kept for an hour after their last request."""
 
     xmlrpc_bytes: int = 64 << 20
     """The body of an XML-RPC request or answer: robot descriptions and maps travel
     through the parameter server."""
 
     xmlrpc_depth: int = 100
-    """Arrays and structs inside one another in an XML-RPC value."""
+    """Arrays and structs inside one another in an XML-RPC value. Parameters of robots have
+    up to ten."""
+
+    xmlrpc_values: int = 1_000_000
+    """Values in one XML-RPC request or answer, arrays and structs included."""
 
     xmlrpc_timeout: float = 30.0
-    """Seconds for the whole of one XML-RPC request to arrive."""
+    """Seconds for the whole of one XML-RPC request to arrive: enough for the largest over
+    a slow network."""
+
+    requests_per_second: float | None = None
+    """XML-RPC requests of one host that are answered, on the average; each call in a
+    ``system.multicall`` is one. Those beyond wait for their turn, and are not refused,
+    since a node whose registration is refused gives up; those whose sender has gone
+    meanwhile are dropped. By default there is no such limit: roslaunch starts hundreds of
+    nodes on one host, and each asks for dozens of things at its start."""
+
+    requests_burst: int = 2_000
+    """Requests of one host that are answered at once before ``requests_per_second`` holds,
+    after a time of rest: what a hundred nodes ask for when they are started."""
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.name == "requests_per_second" and value is None:
+                continue
+            whole = field.name not in ("xmlrpc_timeout", "requests_per_second")
+            kinds = int if whole else (int, float)
+            if not isinstance(value, kinds) or isinstance(value, bool) or not value > 0:
+                expected = "a positive whole number" if whole else "a positive number"
+                raise ValueError(f"limits.{field.name} must be {expected}, got {value!r}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +129,7 @@ class NodeOptions:
     master_uri: str | None = None
     host: str | None = None
     bind: str | None = None
+    allow: Collection[str] | None = None
     xmlrpc_port: int = 0
     tcpros_port: int = 0
     argv: tuple[str, ...] | None = None

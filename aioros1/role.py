@@ -47,7 +47,12 @@ class NodeStats:
     roles: int
     connections: int
     connections_refused: int
-    """Connections closed at once because there were ``limits.connections`` already."""
+    """Connections closed at once because there were too many: ``connections``,
+    ``xmlrpc_connections`` and ``connections_per_host`` of ``limits``."""
+    connections_forbidden: int
+    """Connections closed at once because their address is not in ``allow``."""
+    requests_delayed: int
+    """XML-RPC requests that had to wait for ``limits.requests_per_second``."""
 
 
 class Role(ABC):

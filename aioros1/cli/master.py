@@ -5,11 +5,28 @@ from __future__ import annotations
 import contextlib
 import signal
 import sys
+from typing import Annotated, TypeAlias
+
+from cyclopts import Parameter
 
 __all__ = ["master"]
 
 
-def master(*, port: int = 11311, host: str | None = None) -> None:
+Networks: TypeAlias = Annotated[
+    tuple[str, ...],
+    Parameter(
+        name="--allow",
+        negative=(),
+        show_default=False,
+        help="A network from which connections are taken, such as 127.0.0.0/8 or 10.0.0.5; "
+        "can be repeated. All others are turned away. By default everybody is let in.",
+    ),
+]
+
+
+def master(
+    *, port: int = 11311, host: str | None = None, bind: str | None = None, allow: Networks = ()
+) -> None:
     """Run a ROS master until SIGINT, SIGTERM or a request to shut down.
 
     Parameters
@@ -18,15 +35,20 @@ def master(*, port: int = 11311, host: str | None = None) -> None:
         TCP port; 0 takes a free one.
     host
         What others are told to reach the master by. With localhost it listens only there,
-        else on every interface. By default ROS_HOSTNAME, ROS_IP, or the address of this
-        machine.
+        else on every interface. By default ROS_HOSTNAME, ROS_IP, the address to listen on,
+        or the address of this machine.
+    bind
+        The numeric address to listen on, if host does not say it: 127.0.0.1, or that of one
+        interface.
     """
     import asyncio  # here, as is the master below: other commands and the help need neither
 
-    raise SystemExit(asyncio.run(_serve(host, port)))
+    raise SystemExit(asyncio.run(_serve(host, port, bind, allow or None)))
 
 
-async def _serve(host: str | None, port: int) -> int:
+async def _serve(
+    host: str | None, port: int, bind: str | None, allow: tuple[str, ...] | None
+) -> int:
     import asyncio
 
     from aioros1.master import Master
@@ -36,8 +58,8 @@ async def _serve(host: str | None, port: int) -> int:
     with contextlib.suppress(NotImplementedError):  # Windows has KeyboardInterrupt instead
         for number in (signal.SIGINT, signal.SIGTERM):
             loop.add_signal_handler(number, stop.set)
-    core = Master(host, port)
     try:
+        core = Master(host, port, bind=bind, allow=allow)
         await core.start()
     except (OSError, ValueError) as error:
         print(f"aioros1 master: {_text(error)}", file=sys.stderr)

@@ -6,7 +6,10 @@ every node. roscore starts a program for this; here it is a node in the master's
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from aioros1.node import Node
+from aioros1.options import Limits
 
 __all__ = ["RosoutAggregator"]
 
@@ -14,9 +17,24 @@ __all__ = ["RosoutAggregator"]
 class RosoutAggregator:
     """Relays log messages, without decoding them, until it is closed."""
 
-    def __init__(self, master_uri: str, host: str) -> None:
+    def __init__(
+        self,
+        master_uri: str,
+        host: str,
+        *,
+        bind: str | None = None,
+        allow: Collection[str] | None = None,
+        limits: Limits = Limits(),  # noqa: B008 - frozen
+    ) -> None:
         self._node = Node(
-            "rosout", master_uri=master_uri, host=host, rosout=False, logger_services=False
+            "rosout",
+            master_uri=master_uri,
+            host=host,
+            bind=bind,
+            allow=allow,
+            limits=limits,
+            rosout=False,
+            logger_services=False,
         )
 
     async def start(self) -> None:

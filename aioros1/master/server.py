@@ -8,7 +8,8 @@ import logging
 import random
 import uuid
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
 
@@ -17,13 +18,21 @@ from aioros1.master.notifier import Notifier
 from aioros1.master.parameters import ParameterTree, ParamUpdate
 from aioros1.master.registry import Answer, Registry
 from aioros1.names import resolve_from
-from aioros1.net.hosts import advertised_host, bind_address_for, uri_host
+from aioros1.net.allow import AllowList, parse_address
+from aioros1.net.hosts import (
+    advertised_host,
+    bind_address_for,
+    is_wildcard,
+    local_address_facing,
+    resolve,
+    uri_host,
+)
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import Reply, XmlRpcServer
 from aioros1.options import Limits, Timeouts
 from aioros1.wire.xmlrpc import decode_response, encode_response
 
-__all__ = ["DEFAULT_PORT", "Master"]
+__all__ = ["DEFAULT_PORT", "Master", "MasterStats"]
 
 DEFAULT_PORT = 11311
 
@@ -32,6 +41,21 @@ _LOG = logging.getLogger("aioros1.master")
 # What roscore sets, and roslaunch and roswtf look for; the values are the output of
 # commands there, hence the line ends. The version is that of the master we answer like.
 _ROSCORE_PARAMS = {"/rosdistro": "noetic\n", "/rosversion": "1.15.15\n"}
+
+
+@dataclass(frozen=True, slots=True)
+class MasterStats:
+    """What the port of a master has counted."""
+
+    connections: int
+    """Connections that are open."""
+    connections_refused: int
+    """Connections closed at once because there were too many: ``xmlrpc_connections`` and
+    ``connections_per_host`` of ``limits``."""
+    connections_forbidden: int
+    """Connections closed at once because their address is not in ``allow``."""
+    requests_delayed: int
+    """Requests that had to wait for ``limits.requests_per_second``."""
 
 
 class Master:
@@ -45,8 +69,13 @@ class Master:
     ``host`` is what the master tells others to reach it by, and decides where it listens:
     with ``"localhost"`` or a numeric loopback address only there, else on every interface
     (IPv6 as well if it is a numeric IPv6 address). By default it is ``ROS_HOSTNAME``, then
-    ``ROS_IP``, then this machine's address on the default route, then ``localhost``. There
-    is no access control in ROS 1: on a network that is not trusted, use ``"localhost"``.
+    ``ROS_IP``, then ``bind``, then this machine's address on the default route, then
+    ``localhost``. ``bind`` is a numeric address to listen on, if that is to be another one.
+
+    ``allow`` names the networks from which connections are taken (``["127.0.0.0/8",
+    "10.0.0.5"]``), of all others none. All nodes have to be in one of them, and so has
+    this machine, since the node ``/rosout`` is a node like others. There is no other access
+    control in ROS 1: on a network that is not trusted, use ``"localhost"``.
 
     ``port`` 0 takes a free one. ``params`` are parameters to begin with, beside ``/run_id``,
     ``/rosdistro`` and ``/rosversion``, which are set as roscore does; values that no
@@ -56,6 +85,8 @@ class Master:
     ``/rosout_agg``, as roscore does.
 
     A request to shut down, which anybody may send, is answered and then obeyed.
+
+    Raises :class:`ValueError` for networks in ``allow`` that are none.
     """
 
     def __init__(
@@ -63,12 +94,16 @@ class Master:
         host: str | None = None,
         port: int = DEFAULT_PORT,
         *,
+        bind: str | None = None,
+        allow: Collection[str] | None = None,
         params: Mapping[str, Any] | None = None,
         rosout: bool = True,
         timeouts: Timeouts | None = None,
         limits: Limits | None = None,
     ) -> None:
-        limits = limits if limits is not None else Limits()
+        self._limits = limits = limits if limits is not None else Limits()
+        self._allow = AllowList(allow)
+        self._bind = bind
         self._host = host
         self._port = port
         self._rosout = rosout
@@ -93,7 +128,9 @@ class Master:
             notify=self._notifier.send,
             shutdown=self._answer_shutdown,
         )
-        self._server = XmlRpcServer(self._api.methods(), limits=limits, log=_LOG)
+        self._server = XmlRpcServer(
+            self._api.methods(), limits=limits, allow=self._allow, log=_LOG
+        )
         # What ends with the master, in reverse order; whatever else is to live as long as
         # it does, such as the aggregator of /rosout, is put on top in start().
         self._stack = contextlib.AsyncExitStack()
@@ -123,16 +160,30 @@ class Master:
         """Whether the master serves."""
         return bool(self._uri) and self._closing is None
 
+    @property
+    def stats(self) -> MasterStats:
+        """Who was let in since the start, and who was not."""
+        door = self._server.admission
+        return MasterStats(door.open, door.refused, door.forbidden, self._server.delayed)
+
     async def start(self) -> None:
-        """Begin to serve. Raises :class:`OSError` when the port is taken."""
+        """Begin to serve.
+
+        Raises :class:`OSError` when the address or the port is not to be had, and
+        :class:`ValueError` when ``bind`` is no address, or ``allow`` leaves out this machine
+        while the node ``/rosout`` is wanted.
+        """
         if self._started:
             raise RuntimeError("a master is started once")
         self._started = True
-        if self._host in ("0.0.0.0", "::"):  # where to listen, and nothing to tell others
-            bind, advertised = self._host, advertised_host()
-        else:
-            advertised = self._host or advertised_host()
-            bind = bind_address_for(advertised)
+        host, bind = self._host, self._bind
+        if host is not None and is_wildcard(host):  # where to listen, and nothing to tell others
+            host, bind = None, bind or host
+        told = bind if bind and not is_wildcard(bind) else None
+        advertised = host or advertised_host(bound=told)
+        bind = bind or bind_address_for(advertised)
+        if self._rosout:
+            await self._check_that_rosout_is_allowed(advertised)
         await self._server.start(bind, self._port)
         self._stack.push_async_callback(self._client.close)
         self._stack.push_async_callback(self._notifier.close)
@@ -142,10 +193,31 @@ class Master:
             # Imported here: it is a node, and those who only want a master have none.
             from aioros1.master.rosout_aggregator import RosoutAggregator
 
-            aggregator = RosoutAggregator(self._uri, advertised)
+            aggregator = RosoutAggregator(
+                *(self._uri, advertised),
+                bind=bind,
+                allow=self._allow.networks,
+                limits=self._limits,
+            )
             self._stack.push_async_callback(aggregator.close)
             await aggregator.start()
         _LOG.info("master at %s, run id %s", self._uri, self._run_id)
+
+    async def _check_that_rosout_is_allowed(self, host: str) -> None:
+        """It is at ``host``, as the master is, and each of them calls the other."""
+        if self._allow.networks is None:
+            return
+        try:
+            _, address = (await resolve(host))[0]
+            own = parse_address(local_address_facing(address))
+        except OSError:
+            return  # the start itself will say so
+        if own not in self._allow:
+            raise ValueError(
+                f"allow: the node /rosout of this master connects from {own}, "
+                f"which is not in {', '.join(self._allow.networks) or 'the empty list'}: "
+                "add it, or do without the node (rosout=False)"
+            )
 
     async def close(self) -> None:
         """Stop serving and free everything; idempotent. The nodes are not told: they

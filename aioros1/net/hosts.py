@@ -18,6 +18,7 @@ __all__ = [
     "bind_address_for",
     "bind_sockets",
     "is_loopback",
+    "is_wildcard",
     "local_address",
     "local_address_facing",
     "resolve",
@@ -75,18 +76,21 @@ def local_address() -> str | None:
     return None
 
 
-def advertised_host(environ: Mapping[str, str] | None = None) -> str:
-    """The host a server that listens on every interface should tell others.
+def advertised_host(
+    environ: Mapping[str, str] | None = None, *, bound: str | None = None
+) -> str:
+    """The host a server should tell others.
 
-    ``ROS_HOSTNAME``, then ``ROS_IP``, as for every program of ROS 1; else the address on
-    the default route, else ``localhost``. rosmaster tells the machine's host name
+    ``ROS_HOSTNAME``, then ``ROS_IP``, as for every program of ROS 1; else ``bound``, the one
+    address that it listens on; else the address on the default route, else ``localhost``.
+    rosmaster tells the machine's host name
     instead, which other machines often cannot look up, and looking it up takes a thread.
     """
     environ = os.environ if environ is None else environ
     for variable in ("ROS_HOSTNAME", "ROS_IP"):
         if host := environ.get(variable, "").strip():
             return host
-    return local_address() or "localhost"
+    return bound or local_address() or "localhost"
 
 
 def bind_address_for(host: str) -> str:
@@ -103,6 +107,14 @@ def is_loopback(host: str) -> bool:
         return True
     try:
         return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False
+
+
+def is_wildcard(host: str) -> bool:
+    """Whether ``host`` stands for all addresses: where to listen, nothing to tell others."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_unspecified
     except ValueError:
         return False
 

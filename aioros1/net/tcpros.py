@@ -8,16 +8,22 @@ three to five times as much.
 from __future__ import annotations
 
 import asyncio
+import logging
 import socket
 from collections.abc import Awaitable, Callable, Mapping
-from typing import Literal, Protocol, cast
+from functools import partial
+from typing import Any, Literal, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError
+from aioros1.net.admission import Admission
+from aioros1.net.allow import AllowList
 from aioros1.net.hosts import bind_sockets, resolve
 from aioros1.options import Limits
 
 __all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
+
+_LOG = logging.getLogger("aioros1.tcpros")
 
 # Seconds idle, seconds between probes, probes: what roscpp sets on every connection,
 # so that a peer that lost its power is noticed at all.
@@ -185,8 +191,8 @@ class Listener:
     """The TCPROS port of a node, and other ways to connect to it.
 
     ``spawn(function, stream, name=...)`` must run ``function(stream)`` in a task of the
-    caller's, so that every connection is owned. A connection beyond
-    ``limits.connections`` is closed at once: to a peer this looks as a full backlog does.
+    caller's, so that every connection is owned. A connection from an address that is not
+    in ``allow``, or beyond the limits, is closed at once, before anything is read of it.
     """
 
     def __init__(
@@ -195,14 +201,19 @@ class Listener:
         spawn: Callable[..., object],
         *,
         limits: Limits,
+        allow: AllowList | None = None,
+        log: logging.Logger | logging.LoggerAdapter[Any] | None = None,
     ) -> None:
         self._serve = serve
         self._spawn = spawn
-        self._limits = limits
+        self.admission = Admission(
+            "the TCPROS port",
+            allow=allow,
+            total=("connections", limits.connections),
+            per_host=limits.connections_per_host,
+            log=log if log is not None else _LOG,
+        )
         self._servers: list[asyncio.Server] = []
-        self._open = 0
-        self.refused = 0
-        """Connections closed because there were too many."""
         self.port = 0
 
     async def start(self, host: str, port: int) -> None:
@@ -231,22 +242,22 @@ class Listener:
         return asyncio.StreamReaderProtocol(reader, self._accepted, loop=loop)
 
     def _accepted(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        if self._open >= self._limits.connections:
-            self.refused += 1
+        host = self.admission.enter(writer.transport)
+        if host is None:
             writer.transport.abort()
             return
-        self._open += 1
         stream = Stream(reader, writer)
         try:
-            self._spawn(self._run, stream, name=f"tcpros {stream.peer}")
+            self._spawn(partial(self._run, host), stream, name=f"tcpros {stream.peer}")
         except ClosedError:
+            self.admission.leave(host)
             stream.abort()
 
-    async def _run(self, stream: Stream) -> None:
+    async def _run(self, host: str, stream: Stream) -> None:
         try:
             await self._serve(stream)
         finally:
-            self._open -= 1
+            self.admission.leave(host)
 
     def close(self) -> None:
         """Stop listening; connections that are open stay so."""

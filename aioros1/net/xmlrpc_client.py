@@ -60,7 +60,10 @@ class XmlRpcClient:
                     self._calls.discard(limit)
             if answer.status != 200:
                 raise XmlRpcError(f"HTTP status {answer.status} {answer.reason}")
-            return decode_response(answer.body, max_depth=self._limits.xmlrpc_depth)
+            limits = self._limits
+            return decode_response(
+                answer.body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
+            )
         except TimeoutError:
             raise self._out_of_time(f"{method} at {uri}", seconds) from None
         except ConnectionResetError as error:

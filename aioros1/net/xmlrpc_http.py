@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from aiohttp import web
 
@@ -18,9 +18,11 @@ if TYPE_CHECKING:
     from aiohttp.abc import AbstractStreamWriter
     from aiohttp.typedefs import LooseHeaders
 
+    from aioros1.net.admission import Admission
+
 __all__ = ["Answer", "Connection", "Quiet", "plain"]
 
-# What a transport takes without making the writer wait.
+# What a transport may hold without making the writer wait, be it one answer or many.
 _SMALL = 48 << 10
 
 
@@ -28,7 +30,7 @@ class Answer(web.StreamResponse):
     """A ``200 OK`` with an XML document, written at once and by hand.
 
     ``patience`` is how many seconds the peer may take to read it; aiohttp would wait for
-    ever for one that asks for megabytes and then reads nothing. With ``flush`` the answer
+    ever for one that asks for megabytes, or again and again, and then reads nothing. With ``flush`` the answer
     is sent when :meth:`prepare` returns: the kernel has every byte.
     """
 
@@ -58,7 +60,7 @@ class Answer(web.StreamResponse):
             b"HTTP/1.1 200 OK\r\nContent-Type: text/xml\r\nContent-Length: %d\r\n%s\r\n%s"
             % (len(document), b"" if keep else b"Connection: close\r\n", document)
         )
-        if self._flush or len(document) > _SMALL:
+        if self._flush or transport.get_write_buffer_size() > _SMALL:
             try:
                 async with asyncio.timeout(self._patience):
                     if self._flush:
@@ -88,24 +90,44 @@ class Connection(web.RequestHandler):
     """aiohttp's connection, which knows since when it waits for the rest of a head.
 
     aiohttp itself waits as long for the rest of a request line as for the next request.
-    ``connections`` holds those that are open.
+    ``connections`` holds those that are open. One that ``admission`` turns away is none,
+    and is closed before anything is read of it.
     """
 
-    __slots__ = ("_busy", "_connections", "_waits_since")
+    __slots__ = ("_admission", "_busy", "_connections", "_gone", "_waits_since", "host")
 
-    def __init__(self, connections: set[Connection], manager: web.Server, **options: Any) -> None:
+    def __init__(
+        self,
+        connections: set[Connection],
+        admission: Admission,
+        manager: web.Server,
+        **options: Any,
+    ) -> None:
         super().__init__(manager, **options)
         self._connections = connections
+        self._admission = admission
+        self.host: str | None = None
+        """Where it comes from; ``None`` before it is let in."""
+        self._gone: asyncio.Future[bool] | None = None
         self._busy = False
         self._waits_since: float | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self.host = self._admission.enter(transport)
+        if self.host is None:
+            cast("asyncio.Transport", transport).abort()
+            return
         self._connections.add(self)
         super().connection_made(transport)
 
     def connection_lost(self, exc: BaseException | None) -> None:
+        if self.host is None:
+            return
         super().connection_lost(exc)
         self._connections.discard(self)
+        self._admission.leave(self.host)
+        if self._gone is not None and not self._gone.done():
+            self._gone.set_result(True)
 
     def data_received(self, data: bytes) -> None:
         super().data_received(data)
@@ -120,6 +142,18 @@ class Connection(web.RequestHandler):
     def request_ends(self) -> None:
         """The request has been answered, or is about to be."""
         self._busy = False
+
+    async def is_gone_after(self, seconds: float) -> bool:
+        """Wait; whether the peer has gone meanwhile, which ends the waiting."""
+        if self.transport is None:
+            return True
+        self._gone = gone = self._loop.create_future()
+        timer = self._loop.call_later(seconds, _settle, gone)
+        try:
+            return await gone
+        finally:
+            timer.cancel()
+            self._gone = None
 
     def close_if_late(self, deadline: float) -> None:
         """Refuse a head that began before ``deadline`` and is not complete yet."""
@@ -136,6 +170,11 @@ class Connection(web.RequestHandler):
         """Close at once; what was not sent yet is lost."""
         if self.transport is not None:
             self.transport.abort()
+
+
+def _settle(future: asyncio.Future[bool]) -> None:
+    if not future.done():
+        future.set_result(False)
 
 
 class Quiet(logging.LoggerAdapter[Any]):

@@ -16,7 +16,10 @@ from typing import Any
 
 from aiohttp import web
 
+from aioros1.net.admission import Admission
+from aioros1.net.allow import AllowList
 from aioros1.net.hosts import bind_sockets
+from aioros1.net.rate import RateLimit
 from aioros1.net.xmlrpc_http import Answer, Connection, Quiet, plain
 from aioros1.options import Limits
 from aioros1.wire.xmlrpc import (
@@ -76,17 +79,31 @@ class XmlRpcServer:
         methods: Mapping[str, Method],
         *,
         limits: Limits | None = None,
+        allow: AllowList | None = None,
         log: logging.Logger | logging.LoggerAdapter[Any] | None = None,
     ) -> None:
         self._methods = {name: (method, *_arity(method)) for name, method in methods.items()}
-        self._limits = limits if limits is not None else Limits()
+        self._limits = limits = limits if limits is not None else Limits()
         self._log = log if log is not None else _LOG
+        self.admission = Admission(
+            "the XML-RPC port",
+            allow=allow,
+            total=("xmlrpc_connections", limits.xmlrpc_connections),
+            per_host=limits.connections_per_host,
+            log=self._log,
+        )
+        self._rate: RateLimit | None = None
+        if limits.requests_per_second is not None:
+            self._rate = RateLimit(limits.requests_per_second, limits.requests_burst)
+        self.delayed = 0
+        """Requests that had to wait, because their host had sent too many."""
         self._http: web.Server | None = None
         self._listeners: list[asyncio.Server] = []
         self._connections: set[Connection] = set()
         # The requests in progress, and the connections that have had one.
         self._running: set[asyncio.Task[Any]] = set()
         self._serving: set[asyncio.Task[Any]] = set()
+        self._waiting: set[asyncio.Task[Any]] = set()
         self._sweeper: asyncio.TimerHandle | None = None
         self._port = 0
 
@@ -112,6 +129,7 @@ class XmlRpcServer:
         def connection() -> Connection:
             return Connection(
                 self._connections,
+                self.admission,
                 http,
                 loop=loop,
                 keepalive_timeout=KEEP_ALIVE,
@@ -146,6 +164,7 @@ class XmlRpcServer:
         http.pre_shutdown()
         # aiohttp loses sight of the tasks of a connection whose peer has gone, and would
         # leave them behind; so they are ended here.
+        await _cancel(self._waiting)  # these have not begun
         if self._running:
             await asyncio.wait(self._running, timeout=timeout)
         await _cancel(self._running)
@@ -181,6 +200,8 @@ class XmlRpcServer:
             self._serving.add(request.task)
             request.task.add_done_callback(self._serving.discard)
         try:
+            if self._rate is not None:
+                await self._take_turn(self._rate, connection, task)
             refusal = self._refuse(request)
             if refusal is not None:
                 return refusal
@@ -195,11 +216,34 @@ class XmlRpcServer:
                     return plain(408, "the request did not arrive in time", close=True)
             if not isinstance(body, bytes):
                 return body
-            document, afters = await self._answer(body)
+            document, afters = await self._answer(body, connection.host)
             return await self._send(request, document, afters)
         finally:
             connection.request_ends()
             self._running.discard(task)
+
+    async def _take_turn(
+        self, rate: RateLimit, connection: Connection, task: asyncio.Task[Any]
+    ) -> None:
+        """Wait if the host has sent too many requests. Nothing more is read from the
+        connection then than fits into its buffers.
+
+        Raises :class:`ConnectionResetError` when the peer does not wait for the answer: a
+        host has no more requests waiting here than it has connections.
+        """
+        host = connection.host
+        assert host is not None
+        delay = rate.take(host, asyncio.get_running_loop().time())
+        if not delay:
+            return
+        self.delayed += 1
+        self._waiting.add(task)
+        try:
+            if await connection.is_gone_after(delay):
+                rate.give_back(host)
+                raise ConnectionResetError("the client has gone")
+        finally:
+            self._waiting.discard(task)
 
     def _refuse(self, request: web.BaseRequest) -> web.Response | None:
         headers = request.headers
@@ -263,18 +307,27 @@ class XmlRpcServer:
 
     # ------------------------------------------------------------------ one call
 
-    async def _answer(self, body: bytes) -> tuple[bytes, list[Callable[[], object]]]:
+    async def _answer(
+        self, body: bytes, host: str | None
+    ) -> tuple[bytes, list[Callable[[], object]]]:
         afters: list[Callable[[], object]] = []
+        limits = self._limits
         try:
-            name, params = decode_call(body, max_depth=self._limits.xmlrpc_depth)
+            name, params = decode_call(
+                body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
+            )
         except XmlRpcError as error:
             return encode_fault(FAULT_PARSE, str(error)), afters
         try:
             if name == "system.multicall":
+                if self._rate is not None and host and params and isinstance(params[0], list):
+                    # Each call in it is a request; one of them was counted before.
+                    now = asyncio.get_running_loop().time()
+                    self._rate.take(host, now, max(len(params[0]) - 1, 0))
                 value = await self._multicall(params, afters)
             else:
                 value = await self._call(name, params, afters)
-            return encode_response(value, max_depth=self._limits.xmlrpc_depth), afters
+            return encode_response(value, max_depth=limits.xmlrpc_depth), afters
         except XmlRpcFault as fault:
             return encode_fault(fault.code, fault.text), afters
         except (TypeError, ValueError, OverflowError) as error:

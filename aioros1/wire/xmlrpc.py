@@ -18,7 +18,8 @@ The value types, and how each is written:
 comes in is read as ``None``, because the master has to answer it politely.
 
 Nothing here trusts its input: document type declarations are refused (they are the way
-to entity bombs and external files), nesting is bounded and read without recursion.
+to entity bombs and external files), nesting is bounded and read without recursion, and
+so is the number of values, each of which costs much more time than its few octets show.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from aioros1.wire.xmlrpc_scalars import INT_MAX, INT_MIN, XmlRpcError, brief
 
 __all__ = [
     "MAX_DEPTH",
+    "MAX_VALUES",
     "XmlRpcError",
     "XmlRpcFault",
     "decode_call",
@@ -46,6 +48,9 @@ __all__ = [
 
 MAX_DEPTH = 100
 """Arrays and structs inside one another, unless the caller says otherwise."""
+
+MAX_VALUES = 1_000_000
+"""Values in a document, unless the caller says otherwise."""
 
 
 class XmlRpcFault(Exception):
@@ -239,31 +244,35 @@ _BASES = (str, int, float, list, tuple, dict, bytes, bytearray, datetime)
 # ---------------------------------------------------------------------------- decoding
 
 
-def decode_call(data: bytes, *, max_depth: int = MAX_DEPTH) -> tuple[str, tuple[Any, ...]]:
+def decode_call(
+    data: bytes, *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
+) -> tuple[str, tuple[Any, ...]]:
     """The method and the parameters of a ``<methodCall>`` document.
 
     Raises :class:`XmlRpcError`, and nothing else, for whatever is not one.
     """
-    plain = read_plain(data, "methodCall", max_depth)
+    plain = read_plain(data, "methodCall", max_depth, max_values)
     if plain is not None and plain[0] is not None:
         return plain[0], tuple(plain[1])
-    document = read_document(data, "methodCall", max_depth)
+    document = read_document(data, "methodCall", max_depth, max_values)
     if document.method is None:
         raise XmlRpcError("the call has no methodName")
     return document.method, tuple(document.params)
 
 
-def decode_response(data: bytes, *, max_depth: int = MAX_DEPTH) -> Any:
+def decode_response(
+    data: bytes, *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
+) -> Any:
     """The value in a ``<methodResponse>`` document.
 
     Raises :class:`XmlRpcFault` when it carries a fault, :class:`XmlRpcError` when it is
     not such a document. An empty one is what a roscpp node answers to a request it
     cannot read.
     """
-    plain = read_plain(data, "methodResponse", max_depth)
+    plain = read_plain(data, "methodResponse", max_depth, max_values)
     if plain is not None and plain[0] is None and len(plain[1]) == 1:
         return plain[1][0]
-    document = read_document(data, "methodResponse", max_depth)
+    document = read_document(data, "methodResponse", max_depth, max_values)
     fault = document.fault
     if fault is not UNSET:
         if not isinstance(fault, dict):

@@ -19,6 +19,9 @@ __all__ = ["read_plain"]
 # A bound to the memory for what the second expression finds.
 _MAX_BYTES = 64 << 10
 
+# No document of that size has more values.
+_MOST_VALUES = _MAX_BYTES // len("<value></value>")
+
 # Lists inside lists inside a parameter: as many as the slave API has.
 _DEPTH = 2
 
@@ -46,10 +49,14 @@ _DOCUMENT = re.compile(_document())
 _PARTS = re.compile(rf"<({'|'.join(_TO_VALUE)})>([^<]*)</([a-z0-9]+)>|<(/?)array>")
 
 
-def read_plain(data: bytes, root: str, max_depth: int) -> tuple[str | None, list[Any]] | None:
+def read_plain(
+    data: bytes, root: str, max_depth: int, max_values: int
+) -> tuple[str | None, list[Any]] | None:
     """The method and the parameters in ``<root>``; None for what only the general reader
     can read, or refuse."""
-    if len(data) > _MAX_BYTES or max_depth < _DEPTH or not data.isascii():
+    if len(data) > _MAX_BYTES or max_depth < _DEPTH or max_values < _MOST_VALUES:
+        return None
+    if not data.isascii():
         return None
     text = data.decode("ascii")
     found = _DOCUMENT.fullmatch(text)

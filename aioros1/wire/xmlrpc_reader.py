@@ -1,6 +1,7 @@
 """Reading XML-RPC documents with expat: whatever may be in them, and whatever is wrong.
 
-Document type declarations are refused, nesting is bounded, and read without recursion.
+Document type declarations are refused, nesting is bounded and read without recursion, and
+the number of values is bounded.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ UNSET: Any = object()
 _PENDING: Any = object()
 
 
-def read_document(data: bytes, root: str, max_depth: int) -> Document:
+def read_document(data: bytes, root: str, max_depth: int, max_values: int) -> Document:
     """What is in ``<root>``. Raises :class:`XmlRpcError`."""
     if not data:
         raise XmlRpcError("the document is empty")
-    decoder = Document(root, max_depth)
+    decoder = Document(root, max_depth, max_values)
     parser = expat.ParserCreate()
     parser.buffer_text = True
     parser.StartElementHandler = decoder.start
@@ -72,12 +73,14 @@ _NOTHING: frozenset[str] = frozenset()
 class Document:
     """Takes expat's events and builds values, with stacks of its own for the nesting."""
 
-    def __init__(self, root: str, max_depth: int) -> None:
+    def __init__(self, root: str, max_depth: int, max_values: int) -> None:
         self.method: str | None = None
         self.params: list[Any] = []
         self.fault: Any = UNSET
         self._root = root
         self._max_depth = max_depth
+        self._max_values = max_values
+        self._values_left = max_values
         self._tags: list[str] = []
         self._sections: set[str] = set()
         self._closed_params = 0
@@ -100,6 +103,9 @@ class Document:
             if tag not in _CHILDREN.get(parent, _NOTHING):
                 self._fail(f"<{tag[:40]}> inside <{parent}>")
             if tag == "value":
+                self._values_left -= 1
+                if self._values_left < 0:
+                    self._fail(f"more than {self._max_values} values in one document")
                 self._values.append(UNSET)
             elif parent == "value":
                 if self._values[-1] is not UNSET or "".join(self._text).strip(BLANK):

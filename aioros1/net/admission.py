@@ -1,0 +1,96 @@
+"""Who is let in: decided when a connection is accepted, before a byte is read."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import socket
+from typing import Any
+
+from aioros1.net.allow import AllowList, parse_address
+from aioros1.net.rate import Seldom
+
+__all__ = ["THIS_HOST", "Admission"]
+
+THIS_HOST = ""
+"""Stands for the host of a peer that came over a Unix socket, or without any: it is on
+this machine, always allowed, and has no share of its own."""
+
+_INTERNET = (socket.AF_INET, socket.AF_INET6)
+
+
+class Admission:
+    """The door of one port: an allow-list, and how many connections there may be.
+
+    ``what`` names the port in what is logged; ``total`` is a field of ``Limits`` and its
+    value. Who is turned away is logged once a minute for each address, and in a minute for
+    no more than 256 of them.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        *,
+        allow: AllowList | None = None,
+        total: tuple[str, int],
+        per_host: int,
+        log: logging.Logger | logging.LoggerAdapter[Any],
+    ) -> None:
+        self._what = what
+        self._allow = allow if allow is not None else AllowList(None)
+        self._total_name, self._total = total
+        self._per_host = per_host
+        self._log = log
+        self._seldom = Seldom()
+        self._hosts: dict[str, int] = {}
+        self.open = 0
+        """Connections let in that have not left."""
+        self.refused = 0
+        """Connections turned away because there were too many."""
+        self.forbidden = 0
+        """Connections turned away because their address is not allowed."""
+
+    def enter(self, transport: asyncio.BaseTransport) -> str | None:
+        """The host a new connection comes from, to be given to :meth:`leave` at its end;
+        ``None`` if it is to be closed at once."""
+        host = THIS_HOST
+        sock = transport.get_extra_info("socket")
+        if sock is not None and sock.family in _INTERNET:
+            try:
+                address = parse_address(transport.get_extra_info("peername")[0])
+            except (OSError, TypeError, ValueError):
+                return None  # it has gone again, and nobody can say who it was
+            host = str(address)
+            if address not in self._allow:
+                self.forbidden += 1
+                self._tell(host, "it is not in allow")
+                return None
+        if self.open >= self._total:
+            self.refused += 1
+            self._tell(host, f"there are {self._total} already (limits.{self._total_name})")
+            return None
+        if host:
+            count = self._hosts.get(host, 0)
+            if count >= self._per_host:
+                self.refused += 1
+                self._tell(
+                    host, f"there are {count} from there already (limits.connections_per_host)"
+                )
+                return None
+            self._hosts[host] = count + 1
+        self.open += 1
+        return host
+
+    def leave(self, host: str) -> None:
+        """A connection that :meth:`enter` has let in is closed."""
+        self.open -= 1
+        if host:
+            count = self._hosts.pop(host) - 1
+            if count:
+                self._hosts[host] = count
+
+    def _tell(self, host: str, why: str) -> None:
+        if self._seldom(host, asyncio.get_running_loop().time()):
+            self._log.warning(
+                "refused a connection from %s to %s: %s", host or "this host", self._what, why
+            )

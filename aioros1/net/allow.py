@@ -1,0 +1,80 @@
+"""Which addresses may connect, without any I/O."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from ipaddress import (
+    IPv4Address,
+    IPv4Network,
+    IPv6Address,
+    IPv6Network,
+    ip_address,
+    ip_network,
+)
+
+__all__ = ["Address", "AllowList", "parse_address"]
+
+Address = IPv4Address | IPv6Address
+Network = IPv4Network | IPv6Network
+
+_EXPECTED = "an IPv4 or IPv6 address or network, such as '10.0.0.5', '10.0.0.0/8' or 'fd00::/8'"
+_MAPPED = IPv6Network("::ffff:0:0/96")
+
+
+def parse_address(text: str) -> Address:
+    """A numeric address, as the kernel gives that of a peer.
+
+    A socket for both kinds of IP gives IPv4 addresses inside IPv6 ones; here they are what
+    they are. Which interface a link-local address belongs to is left out. Raises
+    :class:`ValueError`.
+    """
+    address = ip_address(text.partition("%")[0])
+    return getattr(address, "ipv4_mapped", None) or address
+
+
+class AllowList:
+    """The networks whose addresses may connect; ``None`` is every network.
+
+    An empty list is nobody, so that a list that was filtered too well opens no door. Host
+    names are not taken: what they mean is decided elsewhere, and changes. Raises
+    :class:`ValueError` for what is no network, and for one with host bits
+    (``"10.0.0.5/8"``), since either a host or its whole network may have been meant.
+    """
+
+    def __init__(self, networks: Iterable[str] | None) -> None:
+        if isinstance(networks, str):
+            raise ValueError(f"allow must be a list of networks, got the string {networks!r}")
+        self._networks = None if networks is None else tuple(map(_parse_network, networks))
+
+    @property
+    def networks(self) -> tuple[str, ...] | None:
+        """What is allowed, in the usual notation; ``None`` for everybody."""
+        return None if self._networks is None else tuple(map(str, self._networks))
+
+    def __contains__(self, address: Address) -> bool:
+        if self._networks is None:
+            return True
+        return any(address in network for network in self._networks)
+
+
+def _parse_network(text: object) -> Network:
+    if not isinstance(text, str):
+        raise ValueError(f"allow: expected {_EXPECTED}, got {text!r}")
+    host, slash, bits = text.partition("/")
+    try:
+        # Netmasks are not taken, as they can be written in two ways.
+        if "%" in text or (slash and not (bits.isascii() and bits.isdecimal())):
+            raise ValueError
+        network = ip_network(text, strict=False)
+    except ValueError:
+        raise ValueError(f"allow: expected {_EXPECTED}, got {text!r}") from None
+    if network.network_address != ip_address(host):
+        raise ValueError(
+            f"allow: {text!r} has host bits: expected '{network}' for the network "
+            f"or '{ip_address(host)}' for the host"
+        )
+    if isinstance(network, IPv6Network) and network.subnet_of(_MAPPED):
+        address = network.network_address.ipv4_mapped
+        assert address is not None
+        return IPv4Network((address, network.prefixlen - 96))
+    return network

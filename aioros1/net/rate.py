@@ -1,0 +1,68 @@
+"""How often something may happen, for each of many, in bounded memory and without a clock."""
+
+from __future__ import annotations
+
+__all__ = ["RateLimit", "Seldom"]
+
+
+class RateLimit:
+    """A token bucket for each key: ``rate`` tokens a second come in, ``burst`` fit in.
+
+    Time is seconds of any clock that never goes back. Whoever takes more than there is
+    has to wait, behind those who wait already. ``capacity`` is how many keys are kept; of
+    more than that, the one that came first is forgotten, and begins again.
+    """
+
+    def __init__(self, rate: float, burst: int, *, capacity: int = 4096) -> None:
+        self._rate = rate
+        self._burst = burst
+        self._capacity = capacity
+        # When each bucket will be full; it is as good as absent from then on.
+        self._full_at: dict[str, float] = {}
+
+    def take(self, key: str, now: float, count: int = 1) -> float:
+        """Take ``count`` tokens; the seconds until there are as many."""
+        full_at = self._full_at.get(key)
+        if full_at is None:
+            self._make_room(now)
+            full_at = now
+        full_at = max(full_at, now) + count / self._rate
+        self._full_at[key] = full_at
+        return max(0.0, full_at - now - self._burst / self._rate)
+
+    def give_back(self, key: str, count: int = 1) -> None:
+        """Undo a :meth:`take`."""
+        if key in self._full_at:
+            self._full_at[key] -= count / self._rate
+
+    def _make_room(self, now: float) -> None:
+        if len(self._full_at) < self._capacity:
+            return
+        kept = {key: full_at for key, full_at in self._full_at.items() if full_at > now}
+        if len(kept) >= self._capacity:
+            # Half of them, so that it is not to be done for each that comes.
+            kept = dict(list(kept.items())[self._capacity // 2 :])
+        self._full_at = kept
+
+
+class Seldom:
+    """Says whether to speak of a key: once in ``period`` seconds, and of no more than
+    ``capacity`` keys in that time."""
+
+    def __init__(self, period: float = 60.0, *, capacity: int = 256) -> None:
+        self._period = period
+        self._capacity = capacity
+        self._spoken: dict[str, float] = {}
+
+    def __call__(self, key: str, now: float) -> bool:
+        last = self._spoken.get(key)
+        if last is not None and now - last < self._period:
+            return False
+        if last is None and len(self._spoken) >= self._capacity:
+            oldest = next(iter(self._spoken))
+            if now - self._spoken[oldest] < self._period:
+                return False
+            del self._spoken[oldest]
+        self._spoken.pop(key, None)
+        self._spoken[key] = now  # at the end: the first is always the oldest
+        return True
