@@ -44,15 +44,18 @@ class ParamCalls(ABC):
     async def get_param(self, key: str, default: Any = ...) -> Any:
         """The value of a parameter, or a dict of all below it.
 
-        Raises :class:`KeyError` when it is not set and there is no default, and
-        :class:`~aioros1.MasterUnreachable`.
+        Raises :class:`KeyError` when it is not set and there is no default,
+        :class:`~aioros1.MasterUnreachable`, and :class:`~aioros1.MasterError` for an answer
+        that cannot be read, because it is beyond the limits perhaps.
         """
         key = self._param_key(key)
         try:
             return await self.master.get_param(key)
         except MasterUnreachable:
             raise
-        except MasterError:
+        except MasterError as error:
+            if error.__cause__ is not None:
+                raise  # which says nothing about the parameter
             if default is ...:
                 raise KeyError(key) from None
             return default

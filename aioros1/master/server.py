@@ -128,9 +128,7 @@ class Master:
             notify=self._notifier.send,
             shutdown=self._answer_shutdown,
         )
-        self._server = XmlRpcServer(
-            self._api.methods(), limits=limits, allow=self._allow, log=_LOG
-        )
+        self._server = XmlRpcServer(self._api.methods(), limits=limits, allow=self._allow, log=_LOG)
         # What ends with the master, in reverse order; whatever else is to live as long as
         # it does, such as the aggregator of /rosout, is put on top in start().
         self._stack = contextlib.AsyncExitStack()

@@ -62,6 +62,7 @@ def local_address_facing(remote: str) -> str:
         raise ValueError(f"expected a numeric address, got {remote!r}")
     family, address = literal
     with socket.socket(family, socket.SOCK_DGRAM) as probe:
+        probe.setblocking(False)  # nor does it ever wait
         probe.connect((address, 9))  # the discard port; any would do
         return str(probe.getsockname()[0])
 
@@ -76,9 +77,7 @@ def local_address() -> str | None:
     return None
 
 
-def advertised_host(
-    environ: Mapping[str, str] | None = None, *, bound: str | None = None
-) -> str:
+def advertised_host(environ: Mapping[str, str] | None = None, *, bound: str | None = None) -> str:
     """The host a server should tell others.
 
     ``ROS_HOSTNAME``, then ``ROS_IP``, as for every program of ROS 1; else ``bound``, the one

@@ -30,8 +30,8 @@ class Answer(web.StreamResponse):
     """A ``200 OK`` with an XML document, written at once and by hand.
 
     ``patience`` is how many seconds the peer may take to read it; aiohttp would wait for
-    ever for one that asks for megabytes, or again and again, and then reads nothing. With ``flush`` the answer
-    is sent when :meth:`prepare` returns: the kernel has every byte.
+    ever for one that asks for megabytes, or again and again, and then reads nothing. With
+    ``flush`` the answer is sent when :meth:`prepare` returns: the kernel has every byte.
     """
 
     def __init__(self, document: bytes, *, patience: float, flush: bool = False) -> None:

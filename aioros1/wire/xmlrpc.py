@@ -49,7 +49,7 @@ __all__ = [
 MAX_DEPTH = 100
 """Arrays and structs inside one another, unless the caller says otherwise."""
 
-MAX_VALUES = 1_000_000
+MAX_VALUES = 250_000
 """Values in a document, unless the caller says otherwise."""
 
 

@@ -32,12 +32,27 @@ def read_document(data: bytes, root: str, max_depth: int, max_values: int) -> Do
     parser.StartDoctypeDeclHandler = _refuse_doctype
     parser.XmlDeclHandler = _refuse_encoding
     try:
-        parser.Parse(data, True)
+        _feed(parser, data)
     except XmlRpcError:
         raise
     except (expat.ExpatError, ValueError) as error:
         raise XmlRpcError(f"not XML: {error}") from None
     return decoder
+
+
+# A tag is read as a whole, and its attributes take 25 times their size in memory. So nothing
+# longer is waited for; expat may have looked for the end of a shorter one at every doubling.
+_PIECE = 64 << 10
+_LONGEST_TAG = 256 << 10
+
+
+def _feed(parser: expat.XMLParserType, data: bytes) -> None:
+    view = memoryview(data)
+    for end in range(_PIECE, len(data), _PIECE):
+        parser.Parse(view[end - _PIECE : end], False)
+        if end - parser.CurrentByteIndex > _LONGEST_TAG:
+            raise XmlRpcError(f"a tag or a comment of more than {_LONGEST_TAG} bytes")
+    parser.Parse(view[(len(data) - 1) // _PIECE * _PIECE :], True)
 
 
 def _refuse_doctype(*_: object) -> NoReturn:
@@ -95,6 +110,8 @@ class Document:
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         tags = self._tags
+        if attributes:  # there are none in XML-RPC, but some programs declare name spaces
+            self._count(len(attributes))
         if not tags:
             if tag != self._root:
                 raise XmlRpcError(f"expected a {self._root}, got a <{tag[:40]}>")
@@ -103,9 +120,7 @@ class Document:
             if tag not in _CHILDREN.get(parent, _NOTHING):
                 self._fail(f"<{tag[:40]}> inside <{parent}>")
             if tag == "value":
-                self._values_left -= 1
-                if self._values_left < 0:
-                    self._fail(f"more than {self._max_values} values in one document")
+                self._count(1)
                 self._values.append(UNSET)
             elif parent == "value":
                 if self._values[-1] is not UNSET or "".join(self._text).strip(BLANK):
@@ -169,6 +184,11 @@ class Document:
             self._fail(f"more than {self._max_depth} arrays and structs inside one another")
         self._values[-1] = container
         self._containers.append(container)
+
+    def _count(self, values: int) -> None:
+        self._values_left -= values
+        if self._values_left < 0:
+            self._fail(f"more than {self._max_values} values or attributes in one document")
 
     def _put(self, value: Any) -> None:
         parent = self._tags[-1]

@@ -42,9 +42,7 @@ def v6(host: str) -> Transport:
     return Transport((host, 4242, 0, 0), socket.AF_INET6)
 
 
-def door(
-    allow: list[str] | None = None, *, total: int = 100, per_host: int = 100
-) -> Admission:
+def door(allow: list[str] | None = None, *, total: int = 100, per_host: int = 100) -> Admission:
     return Admission(
         "the port",
         allow=AllowList(allow),
@@ -135,10 +133,11 @@ async def test_who_is_turned_away_is_named_once_with_the_reason(
         admission.enter(v4(host))
     assert [record.getMessage() for record in caplog.records] == [
         "refused a connection from 127.0.0.1 to the port: it is not in allow",
-        "refused a connection from 10.0.0.1 to the port: "
-        "there are 2 from there already (limits.connections_per_host)",
-        "refused a connection from 10.0.0.3 to the port: "
-        "there are 3 already (limits.connections)",
+        (
+            "refused a connection from 10.0.0.1 to the port: "
+            "there are 2 from there already (limits.connections_per_host)"
+        ),
+        "refused a connection from 10.0.0.3 to the port: there are 3 already (limits.connections)",
     ]
     assert {record.levelname for record in caplog.records} == {"WARNING"}
 

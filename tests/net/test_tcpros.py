@@ -290,7 +290,7 @@ async def test_connections_beyond_the_limit_are_closed_and_counted():
         await eventually(lambda: served.count == 2)
         third = await connect("127.0.0.1", listener.port, timeout=5)
         assert await is_closed_at_once(third)
-        assert (listener.refused, served.count) == (1, 2)
+        assert (listener.admission.refused, served.count) == (1, 2)
         first.abort()
         await eventually(lambda: any(task.done() for task in served.tasks))
         fourth = await connect("127.0.0.1", listener.port, timeout=5)

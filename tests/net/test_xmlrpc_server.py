@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from aioros1.net.allow import AllowList
 from aioros1.net.xmlrpc_server import Reply, XmlRpcServer
 from aioros1.options import Limits
 from aioros1.wire.xmlrpc import XmlRpcFault, decode_response, encode_call
@@ -25,10 +26,16 @@ def ping(caller_id: str) -> list[Any]:
 
 @contextlib.asynccontextmanager
 async def serving(
-    methods: Mapping[str, Callable[..., Any]] | None = None, **limits: Any
+    methods: Mapping[str, Callable[..., Any]] | None = None,
+    *,
+    allow: list[str] | None = None,
+    host: str = "127.0.0.1",
+    **limits: Any,
 ) -> AsyncIterator[XmlRpcServer]:
-    server = XmlRpcServer({"ping": ping, **(methods or {})}, limits=Limits(**limits))
-    await server.start("127.0.0.1")
+    server = XmlRpcServer(
+        {"ping": ping, **(methods or {})}, limits=Limits(**limits), allow=AllowList(allow)
+    )
+    await server.start(host)
     try:
         yield server
     finally:
@@ -73,12 +80,15 @@ class Peer:
     async def closed(self) -> bool:
         """Whether the server closes the connection, without another byte."""
         async with asyncio.timeout(10):
-            return await self.reader.read() == b""
+            try:
+                return await self.reader.read() == b""
+            except ConnectionResetError:  # what had been sent was not read
+                return True
 
 
 @contextlib.asynccontextmanager
-async def connected(server: XmlRpcServer) -> AsyncIterator[Peer]:
-    reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+async def connected(server: XmlRpcServer, source: str = "127.0.0.1") -> AsyncIterator[Peer]:
+    reader, writer = await asyncio.open_connection("127.0.0.1", server.port, local_addr=(source, 0))
     try:
         yield Peer(reader, writer)
     finally:
@@ -87,14 +97,14 @@ async def connected(server: XmlRpcServer) -> AsyncIterator[Peer]:
             await writer.wait_closed()
 
 
-async def call(server: XmlRpcServer, method: str, *params: Any) -> Any:
-    async with connected(server) as peer:
+async def call(server: XmlRpcServer, method: str, *params: Any, source: str = "127.0.0.1") -> Any:
+    async with connected(server, source) as peer:
         await peer.post(encode_call(method, params))
         return await peer.value()
 
 
-async def still_serves(server: XmlRpcServer) -> bool:
-    return bool(await call(server, "ping", "/c") == [1, "", "/c"])
+async def still_serves(server: XmlRpcServer, source: str = "127.0.0.1") -> bool:
+    return bool(await call(server, "ping", "/c", source=source) == [1, "", "/c"])
 
 
 # ------------------------------------------------------------------------------- HTTP

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from aioros1.wire.xmlrpc import MAX_DEPTH, decode_call, decode_response, encode_call
+from aioros1.wire.xmlrpc import MAX_DEPTH, MAX_VALUES, decode_call, decode_response, encode_call
 from aioros1.wire.xmlrpc_plain import read_plain
 from aioros1.wire.xmlrpc_reader import UNSET, read_document
 
@@ -80,10 +80,10 @@ def same_types(value: Any) -> Any:
 @example((b"<methodCall><params></params></methodCall>", "methodCall"))
 @example((b"<methodResponse><methodName>m</methodName><params/></methodResponse>", ROOTS[1]))
 def test_what_is_read_is_what_the_general_reader_reads(case: tuple[bytes, str]) -> None:
-    plain = read_plain(*case, MAX_DEPTH)
+    plain = read_plain(*case, MAX_DEPTH, MAX_VALUES)
     if plain is None or (plain[0] is None) != (case[1] == "methodResponse"):
         return
-    general = read_document(*case, MAX_DEPTH)
+    general = read_document(*case, MAX_DEPTH, MAX_VALUES)
     assert plain[0] == general.method
     assert same_types(plain[1]) == same_types(general.params)
     assert general.fault is UNSET
@@ -113,7 +113,7 @@ def test_what_is_taken(values: list[Any]) -> None:
         encode_call("m", values),
         xmlrpc.client.dumps(tuple(values), "m").encode(),
     ):
-        plain = read_plain(document, "methodCall", MAX_DEPTH)
+        plain = read_plain(document, "methodCall", MAX_DEPTH, MAX_VALUES)
         assert (plain is not None) == all(map(is_plain, values))
         method, params = decode_call(document)
         assert (method, same_types(list(params))) == ("m", same_types(values))
@@ -133,7 +133,7 @@ def test_what_is_taken(values: list[Any]) -> None:
     ],
 )
 def test_answers_of_the_programs_of_ROS_1_are_taken(document: bytes) -> None:
-    assert read_plain(document, "methodResponse", MAX_DEPTH) == (None, [[1, "ok", []]])
+    assert read_plain(document, "methodResponse", MAX_DEPTH, MAX_VALUES) == (None, [[1, "ok", []]])
     assert decode_response(document) == [1, "ok", []]
 
 
@@ -143,9 +143,9 @@ def test_what_is_left_to_the_general_reader() -> None:
         return text.encode()
 
     plain = response("<value>x</value>")
-    assert read_plain(plain, "methodResponse", 2) == (None, ["x"])
-    assert read_plain(plain, "methodResponse", 1) is None
-    assert read_plain(plain, "methodCall", 2) is None
+    assert read_plain(plain, "methodResponse", 2, MAX_VALUES) == (None, ["x"])
+    assert read_plain(plain, "methodResponse", 1, MAX_VALUES) is None
+    assert read_plain(plain, "methodCall", 2, MAX_VALUES) is None
     for value in (
         "<value>ü</value>",
         "<value>&lt;</value>",
@@ -156,4 +156,4 @@ def test_what_is_left_to_the_general_reader() -> None:
         "<value><struct></struct></value>",
         "<value/>",
     ):
-        assert read_plain(response(value), "methodResponse", MAX_DEPTH) is None, value
+        assert read_plain(response(value), "methodResponse", MAX_DEPTH, MAX_VALUES) is None, value
