@@ -428,8 +428,10 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     async def _begin(self) -> None:
         bind = self.options.bind
         if self._host is None:
-            told = bind and not is_wildcard(bind)
-            self._host = bind if told else await self._facing_host()
+            if bind and not is_wildcard(bind):
+                self._host = bind
+            else:
+                self._host = await self._facing_host()
         address = bind or bind_address_for(self._host)
         await self._acceptor.start(address, self.options.tcpros_port)
         await self._acceptor.local.start()

@@ -139,6 +139,20 @@ async def test_no_wildcard_address_is_ever_advertised(make_node, bind):
     assert "0.0.0.0" not in node.uri
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="needs a second loopback address")
+async def test_the_one_address_that_is_listened_on_is_told(make_node):
+    node = await make_node("demo", host=None, bind="127.0.0.2")
+    assert (node.host, node.tcpros_address[0]) == ("127.0.0.2", "127.0.0.2")
+    listener = await make_node("listener")
+    async with node.advertise("chatter", String, latch=True) as pub:
+        pub.publish(data="hi")
+        assert (await listener.wait_for_message("chatter", String, timeout=5)).data == "hi"
+    with pytest.raises(ConnectionRefusedError):
+        await asyncio.open_connection("127.0.0.1", node.tcpros_address[1])
+    told = await make_node("told", host="localhost", bind="0.0.0.0")
+    assert told.host == "localhost"
+
+
 async def test_ports_can_be_chosen(make_node):
     first = await make_node("first")
     xmlrpc, tcpros = int(first.uri.rstrip("/").rsplit(":", 1)[1]), first.tcpros_address[1]

@@ -147,7 +147,8 @@ class Connection(web.RequestHandler):
         """Wait; whether the peer has gone meanwhile, which ends the waiting."""
         if self.transport is None:
             return True
-        self._gone = gone = self._loop.create_future()
+        gone: asyncio.Future[bool] = self._loop.create_future()
+        self._gone = gone
         timer = self._loop.call_later(seconds, _settle, gone)
         try:
             return await gone

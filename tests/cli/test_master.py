@@ -66,6 +66,40 @@ async def test_it_serves_until_it_is_asked_to_end() -> None:
         assert (process.returncode, errors) == (0, b"")
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="needs a second loopback address")
+async def test_who_may_connect_and_where_it_listens() -> None:
+    words = ("--bind", "127.0.0.1", "--allow", "10.0.0.0/8", "--allow", "127.0.0.1")
+    async with command("master", "--port", "0", *words) as process:
+        uri = await uri_of(process)
+        assert uri.startswith("http://127.0.0.1:")
+        client = XmlRpcClient()
+        assert (await client.call(uri, "getPid", "/c"))[2] == process.pid
+        await client.close()
+        port = int(uri.rstrip("/").rsplit(":", 1)[1])
+        reader, writer = await asyncio.open_connection(
+            "127.0.0.1", port, local_addr=("127.0.0.2", 0)
+        )
+        assert await asyncio.wait_for(reader.read(), 20) == b""
+        writer.close()
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (("--allow", "10.0.0.5/8"), b"allow: '10.0.0.5/8' has host bits"),
+        (("--allow", "10.0.0.0/8", "--host", "localhost"), b"connects from 127.0.0.1"),
+        (("--bind", "eth0"), b"expected a numeric address to listen on, got 'eth0'"),
+    ],
+)
+async def test_options_that_make_no_sense(words: tuple[str, ...], text: bytes) -> None:
+    async with command("master", "--port", "0", *words) as process:
+        output, errors = await asyncio.wait_for(process.communicate(), 20)
+    assert (process.returncode, output) == (1, b"")
+    assert errors.startswith(b"aioros1 master: ")
+    assert text in errors
+    assert b"Traceback" not in errors
+
+
 async def test_a_port_that_is_taken() -> None:
     (sock,) = bind_sockets("127.0.0.1")
     port = sock.getsockname()[1]

@@ -6,15 +6,19 @@ import asyncio
 import gc
 import os
 import re
+import socket
+import sys
 import uuid
 import warnings
 from typing import Any
+from urllib.parse import urlsplit
 
 import aiohttp
 import pytest
 
 from aioros1.master import Master
 from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.node import Node
 from aioros1.wire.xmlrpc import XmlRpcFault, decode_response
 
 API = "http://127.0.0.1:1/"
@@ -304,7 +308,7 @@ async def test_what_is_told_to_others(
 
 
 async def test_a_wildcard_is_never_told_to_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("aioros1.master.server.advertised_host", lambda: "192.0.2.7")
+    monkeypatch.setattr("aioros1.master.server.advertised_host", lambda bound: "192.0.2.7")
     for host in (None, "0.0.0.0"):
         async with Master(host, port=0, rosout=False) as master:
             assert master.uri == f"http://192.0.2.7:{master.port}/"
@@ -313,6 +317,53 @@ async def test_a_wildcard_is_never_told_to_others(monkeypatch: pytest.MonkeyPatc
                 2
             ] == master.uri
             await client.close()
+
+
+def is_listening(host: str, port: int) -> bool:
+    with socket.socket() as sock:
+        return sock.connect_ex((host, port)) == 0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs a second loopback address")
+async def test_it_can_listen_on_one_address_only() -> None:
+    async with Master(bind="127.0.0.2", port=0) as master:
+        assert master.uri == f"http://127.0.0.2:{master.port}/"
+        async with Node("node", master_uri=master.uri) as node:
+            aggregator = urlsplit(await node.master.lookup_node("/rosout"))
+        assert (aggregator.hostname, bool(aggregator.port)) == ("127.0.0.2", True)
+        for port in (master.port, aggregator.port):
+            assert await asyncio.to_thread(is_listening, "127.0.0.2", port)
+            assert not await asyncio.to_thread(is_listening, "127.0.0.1", port)
+
+
+async def test_what_it_tells_and_where_it_listens_can_differ(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("ROS_IP", "127.0.0.1")
+    async with Master(bind="0.0.0.0", port=0, rosout=False) as master:
+        assert urlsplit(master.uri).hostname == "127.0.0.1"
+    async with Master("robot.example", bind="127.0.0.1", port=0, rosout=False) as master:
+        assert urlsplit(master.uri).hostname == "robot.example"
+        assert await asyncio.to_thread(is_listening, "127.0.0.1", master.port)
+
+
+@pytest.mark.parametrize("bind", ["robot", "10.0.0.0/8", "eth0"])
+async def test_where_it_cannot_listen(bind: str) -> None:
+    with pytest.raises(ValueError, match=f"numeric address to listen on, got '{bind}'"):
+        await Master("localhost", port=0, bind=bind).start()
+
+
+async def test_a_list_without_this_machine_needs_a_master_without_rosout() -> None:
+    with pytest.raises(ValueError, match=r"connects from 127\.0\.0\.1, which is not in 10\."):
+        await Master("localhost", port=0, allow=["10.0.0.0/8"]).start()
+    with pytest.raises(ValueError, match="not in the empty list"):
+        await Master("localhost", port=0, allow=[]).start()
+    async with Master("localhost", port=0, allow=["10.0.0.0/8"], rosout=False) as master:
+        client = XmlRpcClient()
+        with pytest.raises(ConnectionError):
+            await client.call(master.uri, "getPid", "/c")
+        await client.close()
+        assert master.stats.connections_forbidden
 
 
 async def test_shutdown_is_answered_and_then_obeyed(master: Master, ask: Any) -> None:

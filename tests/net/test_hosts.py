@@ -13,6 +13,7 @@ from aioros1.net.hosts import (
     bind_address_for,
     bind_sockets,
     is_loopback,
+    is_wildcard,
     local_address,
     local_address_facing,
     resolve,
@@ -74,6 +75,26 @@ def test_the_address_that_faces_another() -> None:
 def test_advertised_host_follows_the_environment() -> None:
     assert advertised_host({"ROS_HOSTNAME": "robot", "ROS_IP": "10.0.0.1"}) == "robot"
     assert advertised_host({"ROS_HOSTNAME": "", "ROS_IP": "10.0.0.1"}) == "10.0.0.1"
+
+
+def test_advertised_host_is_the_one_address_that_is_listened_on() -> None:
+    assert advertised_host({}, bound="10.0.0.2") == "10.0.0.2"
+    assert advertised_host({"ROS_IP": "10.0.0.1"}, bound="10.0.0.2") == "10.0.0.1"
+
+
+@pytest.mark.parametrize(
+    ("host", "expected"),
+    [
+        ("0.0.0.0", True),
+        ("::", True),
+        ("[::]", True),
+        ("127.0.0.1", False),
+        ("localhost", False),
+        ("", False),
+    ],
+)
+def test_wildcards(host: str, expected: bool) -> None:
+    assert is_wildcard(host) == expected
 
 
 def test_advertised_host_without_a_network(monkeypatch: pytest.MonkeyPatch) -> None:
