@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ast
 import asyncio
+import dataclasses
 import importlib
 import inspect
 import os
@@ -147,6 +148,16 @@ def test_commands_of_the_readme_set_everything_up():
         assert command.startswith("python3 -m venv .venv && .venv/bin/pip install ")
         assert command.endswith(f".venv/bin/python {last}\n")
         assert command.count("\n") == 1
+
+
+def test_the_page_on_security_has_every_limit_with_its_default():
+    text = (ROOT / "docs" / "security.md").read_text(encoding="utf-8")
+    rows = dict(re.findall(r"^\| `(\w+)` \| (\S+) \|", text, re.MULTILINE))
+    defaults = aioros1.Limits()
+    assert rows == {
+        field.name: f"{value:,}" if (value := getattr(defaults, field.name)) else "None"
+        for field in dataclasses.fields(defaults)
+    }
 
 
 def test_links_between_pages_lead_somewhere():

@@ -251,6 +251,10 @@ class XmlRpcServer:
             return plain(404, "XML-RPC is served at / and /RPC2")
         if request.method != "POST":
             return plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
+        if "Origin" in headers:
+            # Of a web page in somebody's browser, wherever that came from. It could not read
+            # the answer, but need not, to end a node.
+            return plain(403, "XML-RPC is not for web pages", close=True)
         if "Transfer-Encoding" in headers:
             return None
         length = headers.get("Content-Length")

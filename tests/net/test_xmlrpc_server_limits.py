@@ -69,6 +69,19 @@ async def test_who_was_turned_away_leaves_nothing_behind() -> None:
         assert (server.admission.open, server.admission.forbidden) == (0, 50)
 
 
+@pytest.mark.parametrize("origin", ["http://evil.example", "http://127.0.0.1:11311", "null", ""])
+async def test_web_pages_are_refused(origin: str) -> None:
+    calls: list[str] = []
+    async with serving({"shutdown": calls.append}) as server, connected(server) as peer:
+        await peer.post(
+            encode_call("shutdown", ("/c",)), f"Origin: {origin}", "Content-Type: text/plain"
+        )
+        assert (await peer.answer())[0] == 403
+        assert await peer.closed()
+        assert calls == []
+        assert await still_serves(server)
+
+
 # ------------------------------------------------------------------- how many
 
 
