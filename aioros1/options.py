@@ -94,9 +94,9 @@ class Limits:
     xmlrpc_values: int = 250_000
     """Values in one XML-RPC request or answer, arrays and structs included. Reading one
     takes 1 to 8 µs whatever its size, during which the event loop does nothing else:
-    ``xmlrpc_bytes`` of the smallest would be ten seconds of it, this is one. All parameters
-    of a large robot are some ten thousand, the state of a graph of a thousand nodes a
-    hundred thousand, and a robot description, of whatever size, is one."""
+    ``xmlrpc_bytes`` of the smallest would be ten seconds of it, this is one or two. All
+    parameters of a large robot are some ten thousand, the state of a graph of a thousand
+    nodes a hundred thousand, and a robot description, of whatever size, is one."""
 
     xmlrpc_timeout: float = 30.0
     """Seconds for the whole of one XML-RPC request to arrive: enough for the largest over

@@ -246,12 +246,12 @@ class Listener:
         if host is None:
             writer.transport.abort()
             return
-        stream = Stream(reader, writer)
         try:
+            stream = Stream(reader, writer)
             self._spawn(partial(self._run, host), stream, name=f"tcpros {stream.peer}")
-        except ClosedError:
+        except (ClosedError, OSError):  # nobody to serve it, or it has gone again
             self.admission.leave(host)
-            stream.abort()
+            writer.transport.abort()
 
     async def _run(self, host: str, stream: Stream) -> None:
         try:

@@ -306,6 +306,24 @@ async def test_a_connection_that_comes_too_late_is_closed():
         await drop(stream)
 
 
+async def test_a_connection_that_is_lost_while_it_is_accepted_takes_no_place(monkeypatch):
+    def gone(sock: socket.socket) -> None:
+        raise OSError("not connected any more")
+
+    async with serving(connections=1) as (listener, served):
+        stream = await connect("127.0.0.1", listener.port, timeout=5)
+        await eventually(lambda: served.count == 1)
+        await drop(stream)
+        await eventually(lambda: listener.admission.open == 0)
+        monkeypatch.setattr(tcpros, "_tune", gone)
+        with socket.create_connection(("127.0.0.1", listener.port)) as sock:
+            sock.setblocking(False)
+            with contextlib.suppress(ConnectionError):
+                async with asyncio.timeout(5):
+                    assert await asyncio.get_running_loop().sock_recv(sock, 1) == b""
+        assert (served.count, listener.admission.open) == (1, 0)
+
+
 async def test_closing_the_listener_leaves_connections_open():
     async with serving() as (listener, served):
         stream = await connect("127.0.0.1", listener.port, timeout=5)
