@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any
 
@@ -70,7 +71,9 @@ class ParamCalls(ABC):
         await self.master.set_param(key, value)
         # The master tells everybody but the one who did it. What we tell ourselves is what
         # the others get: a list for a tuple, and nothing that the caller can still change.
-        self._roles.param_updated(key, decode_response(encode_response(value)))
+        # Limits are for what others send.
+        ours = decode_response(encode_response(value), max_values=sys.maxsize)
+        self._roles.param_updated(key, ours)
 
     async def has_param(self, key: str) -> bool:
         """Whether a parameter is set. Raises :class:`~aioros1.MasterError`."""

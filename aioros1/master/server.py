@@ -115,7 +115,9 @@ class Master:
         given = {"/run_id": self._run_id, **_ROSCORE_PARAMS, **(params or {})}
         for key, value in given.items():
             # There and back: checked, copied, and of the types a node would have sent.
-            self._parameters.set(resolve_from(key, "/"), decode_response(encode_response(value)))
+            document = encode_response(value)
+            value = decode_response(document, max_values=limits.xmlrpc_values)
+            self._parameters.set(resolve_from(key, "/"), value)
         self._client = XmlRpcClient(timeouts=timeouts, limits=limits)
         self._notifier = Notifier(
             self._client,

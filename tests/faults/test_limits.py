@@ -207,6 +207,13 @@ async def test_a_parameter_of_too_many_values_is_refused_and_named(make_node):
         assert await node.get_param("fits") == list(range(97))
 
 
+async def test_limits_are_for_what_others_send(make_node):
+    node = await make_node("node", limits=aioros1.Limits(xmlrpc_values=100))
+    other = await make_node("other")
+    await node.set_param("many", list(range(1000)))
+    assert await other.get_param("many") == list(range(1000))
+
+
 # wrong values
 
 
