@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from aioros1.names import canonicalize
 from aioros1.net.xmlrpc_server import Reply
+from aioros1.wire.xmlrpc import carriable
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
@@ -153,7 +154,7 @@ class SlaveApi:
 def _bus_info(info: ConnectionInfo) -> list[Any]:
     return [
         info.id,
-        info.peer,
+        carriable(info.peer),  # it chose its name itself, in whatever octets
         info.direction,
         info.transport,
         info.name,

@@ -39,6 +39,7 @@ __all__ = [
     "MAX_VALUES",
     "XmlRpcError",
     "XmlRpcFault",
+    "carriable",
     "decode_call",
     "decode_response",
     "encode_call",
@@ -108,7 +109,7 @@ def encode_fault(code: int, text: str) -> bytes:
     """A ``<methodResponse>`` that says why there is no value. It never fails:
     characters XML cannot carry become ``?``."""
     out = ["<?xml version='1.0'?><methodResponse><fault>"]
-    fault = {"faultCode": code, "faultString": _ILLEGAL.sub("?", text)}
+    fault = {"faultCode": code, "faultString": carriable(text)}
     _encode_root(fault, out.append, "fault", MAX_DEPTH)
     out.append("</fault></methodResponse>")
     return "".join(out).encode()
@@ -208,6 +209,11 @@ def _encode_dict(value: dict[str, Any], write: _Write, depth: int) -> None:
 def _go_deeper(depth: int) -> None:
     if depth <= 0:
         raise _UnencodableError(ValueError, "too many arrays and structs inside one another")
+
+
+def carriable(text: str) -> str:
+    """``text`` with ``?`` for each character that XML cannot carry."""
+    return _ILLEGAL.sub("?", text)
 
 
 def _escape(text: str) -> str:

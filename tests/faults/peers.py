@@ -46,7 +46,8 @@ def frame(body: bytes) -> bytes:
 
 def header(fields: dict[str, str]) -> bytes:
     """A connection header."""
-    return frame(b"".join(frame(f"{name}={value}".encode()) for name, value in fields.items()))
+    texts = (f"{name}={value}" for name, value in fields.items())
+    return frame(b"".join(frame(text.encode("utf-8", "surrogateescape")) for text in texts))
 
 
 def string(text: str) -> bytes:

@@ -170,6 +170,19 @@ async def test_S7_trap_10_bus_info_has_a_row_for_each_connection(node, pub, ask,
     assert (await ask(node, "getBusInfo"))[2] == []
 
 
+async def test_S7_a_peer_whose_name_xml_cannot_carry(node, pub, ask):
+    """Whoever connects chooses its name, and all others are shown as ever."""
+    async with (
+        dialled(node, subscriber_header(callerid="/a\0")),
+        dialled(node, subscriber_header(callerid="/b\udcff")),
+        dialled(node, subscriber_header(callerid="/é<")),
+    ):
+        await pub.wait_for_subscribers(3, timeout=5)
+        code, _, rows = await ask(node, "getBusInfo")
+        assert (code, {row[1] for row in rows}) == (1, {"/a?", "/b?", "/é<"})
+        assert {info.peer for info in pub.connections} == {"/a\0", "/b\udcff", "/é<"}
+
+
 async def test_S8_publishers_of_an_unknown_topic(node, bystander, ask):
     code, _, _ = await ask(node, "publisherUpdate", "/unknown", ["http://127.0.0.1:1/"])
     assert code == 1
