@@ -13,7 +13,7 @@ __all__ = ["check", "seeds"]
 
 TOKENS = [b"\x01\0\0\0", b"\0\0\0\0", b"\xff\xff\xff\xff", b"\0\1\0\0", b"\0\4\0\0"]
 MAX_LEN = 600
-SHARE = 14
+SHARE = 12
 
 _MAX_BYTES = 400
 _DIRECT = 64

@@ -16,7 +16,7 @@ TOKENS = [
     *(b"\x0b\0\0\0callerid=/a", b"\x08\0\0\0md5sum=*", b"\x08\0\0\0topic=/t"),
 ]
 MAX_LEN = 512
-SHARE = 18
+SHARE = 16
 
 _LIMITS = {"max_bytes": 400, "max_fields": 8}
 _TOPIC = TopicOffer("/t", "p/T", "abc", "int8 a")

@@ -13,7 +13,10 @@ __all__ = ["CORPUS", "TARGETS", "load", "save"]
 
 CORPUS = Path(__file__).parent / "corpus"
 
-TARGETS = ("decode", "values", "header", "frames", "xmlrpc", "definition", "full_definition")
+TARGETS = (
+    *("decode", "values", "header", "frames", "service", "http", "xmlrpc"),
+    *("definition", "full_definition"),
+)
 
 
 def load(target: str) -> list[bytes]:

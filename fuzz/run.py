@@ -13,6 +13,7 @@ import importlib
 import pkgutil
 import platform
 import re
+import secrets
 import shlex
 import shutil
 import subprocess
@@ -33,6 +34,8 @@ from fuzz.pack import TARGETS, load, save  # noqa: E402 - found once the path is
 
 WORK = HERE / "work"
 FINDINGS = HERE / "findings"
+SEEN = ["aioros1.idl", "aioros1.wire", "aioros1.net.service_link"]
+"""What libFuzzer sees the branches of."""
 HISTORY = 200
 """Inputs before the one that failed that are kept with it: decoders have a memory."""
 
@@ -48,11 +51,13 @@ def instrument(target: str) -> None:
     """Let libFuzzer see the branches of the library, and of the codecs it generates."""
     import atheris
 
-    with atheris.instrument_imports(include=["aioros1.idl", "aioros1.wire"]):
+    with atheris.instrument_imports(include=SEEN):
         for layer in ("idl", "wire"):
             package = importlib.import_module(f"aioros1.{layer}")
             for found in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
                 importlib.import_module(found.name)
+        if target == "service":
+            importlib.import_module("aioros1.net.service_link")
     if "definition" in target:
         return  # each input has classes of its own, and counters are never given back
 
@@ -199,12 +204,17 @@ def pack(target: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("target", choices=[*TARGETS, "all"])
+    parser.add_argument("target", choices=[*TARGETS, "all", "live"])
     parser.add_argument("--runs", type=int, default=0, help="inputs; for all: divided by share")
     parser.add_argument("--seconds", type=int, default=0, help="for each target")
     parser.add_argument("--jobs", type=int, default=1, help="processes side by side")
     parser.add_argument("--pack", action="store_true", help="minimise and keep what was found")
     parser.add_argument("--replay", nargs="+", type=Path, help="check these files, no more")
+    live = parser.add_argument_group("live")
+    live.add_argument("--requests", type=int, default=100_000, help="how many, of both kinds")
+    live.add_argument("--only", choices=["http", "tcpros"], help="one kind of requests")
+    live.add_argument("--seed", type=int, help="send what was sent with it before")
+    live.add_argument("--loop", choices=["asyncio", "uvloop"], default="asyncio")
     parser.add_argument("--work", action="store_true", help=argparse.SUPPRESS)
     words = sys.argv[1:]
     split = words.index("--") if "--" in words else len(words)
@@ -212,6 +222,10 @@ def main() -> None:
     if options.work:
         work(options.target, extra)
         return
+    if options.target == "live":
+        seed = secrets.randbits(32) if options.seed is None else options.seed
+        live_main = module("live").main
+        sys.exit(not live_main(options.requests, seed, options.only, options.loop, FINDINGS))
     targets = TARGETS if options.target == "all" else (options.target,)
     well, total, began = True, 0, time.monotonic()
     for target in targets:

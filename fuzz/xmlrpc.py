@@ -32,7 +32,7 @@ TOKENS = [
     *(b"19980717T14:08:55", b"-2147483648", b"nan", b"1e999", b"YWI=", b"faultCode"),
 ]
 MAX_LEN = 1024
-SHARE = 18
+SHARE = 12
 
 _DEPTH = 6
 

@@ -12,7 +12,7 @@ import pytest
 
 sys.path.append(str(Path(__file__).parents[1]))
 
-from fuzz import catalogue, decode, pack, values
+from fuzz import catalogue, decode, http, pack, service, values
 
 
 def check_all(target: str, inputs: Iterable[bytes]) -> int:
@@ -155,3 +155,58 @@ def test_an_encoder_that_is_wrong_is_noticed(names: Any) -> None:
     names._encode = names._frame = unnamed
     with pytest.raises(AssertionError):
         values.check_message(names, b"")
+
+
+def found(target: Any) -> int:
+    """How many of a target's seeds something is found with."""
+    count = 0
+    for data in target.seeds():
+        try:
+            target.check(data)
+        except AssertionError:
+            count += 1
+    return count
+
+
+LINK = service.ServiceLink
+READER = http.AnswerReader
+next_, size_of, take_body = LINK._next, LINK._size_of, READER._take_body
+take_chunks, fields = READER._take_chunks, READER._fields
+
+
+@pytest.mark.parametrize(
+    ("owner", "name", "wrong"),
+    [
+        (LINK, "_next", lambda self: None if len(self._buffer) % 3 else next_(self)),
+        (LINK, "_size_of", lambda self, data: min(size_of(self, data), 300)),
+        (LINK, "_set_timer", lambda self, seconds: None),
+        (LINK, "_end", lambda self: None),
+        (LINK, "resume_writing", lambda self: None),
+        # One that reads on, whoever wants it.
+        (service._Transport, "pause_reading", lambda self: None),
+    ],
+)
+def test_a_link_that_loses_or_keeps_something_is_noticed(
+    monkeypatch: pytest.MonkeyPatch, owner: Any, name: str, wrong: Any
+) -> None:
+    assert found(service) == 0
+    monkeypatch.setattr(owner, name, wrong)
+    assert found(service) > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        ("_take_body", lambda self, data, at: take_body(self, data, max(at - 1, 0))),
+        ("_take_chunks", lambda self, data, at: take_chunks(self, data + b"\r\n", at)),
+        ("_fields", lambda self, lines, keeps_alive: fields(self, lines, True)),
+        ("_within_limit", lambda self, more: more),
+        ("receive_eof", lambda self: False),
+    ],
+)
+def test_a_reader_of_answers_that_is_wrong_is_noticed(
+    monkeypatch: pytest.MonkeyPatch, name: str, wrong: Any
+) -> None:
+    assert found(http) == 0
+    monkeypatch.setattr(READER, name, wrong)
+    assert found(http) > 0
