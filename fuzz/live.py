@@ -43,6 +43,8 @@ _TCPROS_CLIENTS = 6
 _WARM_UP = 0.1
 SETTLE = 30.0
 """Seconds until nothing may be left of an attack."""
+_MOST_KIB, _MOST_OBJECTS = 64 << 10, 10_000
+"""How much more memory there may be in the end than after the warm-up."""
 _SLACK = 40
 """Connections that are kept for a while, of which each may have a task and two descriptors."""
 
@@ -281,7 +283,8 @@ async def _attack(requests: int, random: Random, only: str | None, errors: _Erro
             await world.settle(left)
             await world.check()
             memory.append(_memory())
-        return Report(seconds, counts, memory, world.healthy)
+    _check_memory(requests, *memory)
+    return Report(seconds, counts, memory, world.healthy)
 
 
 async def _round(
@@ -300,8 +303,8 @@ async def _round(
             sent: deque[bytes] = deque(maxlen=20)
             own = Random(random.getrandbits(64))
             way = number % 2
-            client = HttpAttack(own, ports[way], (MASTER, SLAVE)[way], sent)
-            attackers.append(("http", client, sent))
+            http = HttpAttack(own, ports[way], (MASTER, SLAVE)[way], sent)
+            attackers.append(("http", http, sent))
     if only != "http":
         for _ in range(_TCPROS_CLIENTS):
             sent = deque(maxlen=20)
@@ -365,6 +368,12 @@ def _first(error: BaseException) -> Finding:
             error.exceptions[0],
         )
     return error if isinstance(error, Finding) else Finding(repr(error))
+
+
+def _check_memory(requests: int, before: tuple[int, int], after: tuple[int, int]) -> None:
+    """Some is kept for names that are new, and some in free lists; but not of each request."""
+    if after[0] - before[0] > _MOST_KIB or after[1] - before[1] > _MOST_OBJECTS + requests // 50:
+        raise Finding(f"memory, in KiB and objects: {before} warmed up, {after} at the end")
 
 
 def _keep(finding: Finding, findings: Path) -> None:

@@ -59,7 +59,7 @@ class Requests:
         return Request(head + self._chunks(document), (200,), False)
 
     def _chunks(self, document: bytes) -> bytes:
-        parts = []
+        parts: list[bytes] = []
         end = self._random.choice((b"", b";a=b"))
         while document:
             size = self._random.choice((1, 10, 100, 1000, len(document)))

@@ -37,7 +37,7 @@ _MAX_BYTES = 400
 _AHEAD = 64
 """In place of the real figure, so that inputs of a few hundred octets exceed it."""
 _OFFER = ServiceOffer("/s", "p/S", "abc")
-_LIMITS = {"max_bytes": 300, "max_fields": 8}
+_LIMITS: Any = {"max_bytes": 300, "max_fields": 8}
 _PATIENCE = 7.0
 _SCRIPT = 63
 

@@ -84,6 +84,19 @@ async def test_what_is_left_behind_is_found(
     assert folder.startswith("live-")
 
 
+async def test_memory_that_grows_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[list[Any]] = []
+    right = SlaveApi.get_uri
+
+    def wrong(self: Any, caller_id: Any) -> Any:
+        kept.extend([] for _ in range(5000))
+        return right(self, caller_id)
+
+    monkeypatch.setattr(SlaveApi, "get_uri", wrong)
+    with pytest.raises(Finding, match="memory"):
+        await attack(600, seed=1, only="http")
+
+
 @pytest.mark.parametrize(
     "octets",
     [
