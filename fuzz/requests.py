@@ -37,6 +37,7 @@ class Requests:
         self._odd: tuple[Callable[[bytes], Request], ...] = (
             *(self._chunked, self._gzip, self._expect, self._old, self._closing, self._dressed),
             *(self._elsewhere, self._get, self._head, self._unsized, self._huge, self._coding),
+            self._of_a_page,
         )
         self._broken: tuple[Callable[[bytes], bytes], ...] = (
             *(self._changed, self._changed, self._cut, self._lying, self._bad_field),
@@ -109,6 +110,9 @@ class Requests:
         return Request(
             b"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: %d\r\n\r\n" % length, (413, 400), True
         )
+
+    def _of_a_page(self, document: bytes) -> Request:
+        return Request(_post(document, b"Origin: http://a\r\n"), (403,), True)
 
     def _coding(self, document: bytes) -> Request:
         return Request(_post(document, b"Content-Encoding: br\r\n"), (415, 400), True)
