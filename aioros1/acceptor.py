@@ -29,7 +29,12 @@ class Acceptor:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._listener = Listener(
-            self._serve, node._spawn, limits=node.limits, allow=node._allow, log=node.log
+            self._serve,
+            node._spawn,
+            limits=node.limits,
+            timeouts=node.timeouts,
+            allow=node._allow,
+            log=node.log,
         )
         self.local = LocalTransports(node.options.local_transports, self._listener)
         """How else than over TCP topics connect, on both sides."""

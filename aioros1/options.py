@@ -49,6 +49,11 @@ class Timeouts:
     stall: float = 30.0
     """For a peer that takes nothing of what is sent to it, before it is cut off."""
 
+    keepalive: float = 60.0
+    """For a peer that is silent, before TCP asks it for a sign of life, and then again and
+    again. One that gives none for two and a half times as long, or for ``stall`` if that is
+    longer, is taken for dead. Whole seconds, at least 1."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limits:

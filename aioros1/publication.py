@@ -198,12 +198,12 @@ class Publication:
         self._open = tuple(other for other in self._open if other is not link)
         self._slow = tuple(other for other in self._slow if other is not link)
         self._look()
-        reason = "it took nothing for too long" if link.stalled else ""
         if link.stalled:
             self._node.log.warning(
-                "publisher %s: %s was cut off, because %s", self.name, link.info.peer, reason
+                "publisher %s: %s was cut off, because %s",
+                *(self.name, link.info.peer, link.failure),
             )
-        self._node._emit(PeerDisconnected("publisher", self.name, link.info, reason))
+        self._node._emit(PeerDisconnected("publisher", self.name, link.info, link.failure))
         self.changed.wake()
 
     def room_made(self) -> None:

@@ -110,6 +110,10 @@ class ServiceCaller(Role, Generic[Q, A]):
     def connections(self) -> tuple[ConnectionInfo, ...]:
         return tuple(connection.info for connection in self._open)
 
+    @property
+    def links(self) -> tuple[tuple[ServiceLink, ConnectionInfo], ...]:
+        return tuple((connection.link, connection.info) for connection in self._open)
+
     def request(self, **fields: Any) -> Q:
         """A new request."""
         return cast("Q", self.service_class._request_class(**fields))
@@ -290,7 +294,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         self.provider_uri = uri
         host, port = self._address(uri)
         try:
-            stream = await connect(host, port, timeout=node.timeouts.connect)
+            stream = await connect(host, port, node.timeouts)
         except (OSError, TimeoutError) as error:
             raise ServiceUnavailable(f"service {self.name}: {error}") from error
         try:

@@ -55,6 +55,10 @@ class Subscription:
         return next((sub.type for sub in self.subscribers if sub.type != "*"), "*")
 
     @property
+    def links(self) -> tuple[IncomingLink, ...]:
+        return self._links
+
+    @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
         return tuple(link.info for link in self._links)
 
@@ -255,9 +259,7 @@ class _Follower:
         answer = await self._request_topic([["TCPROS"], *offers])
         match answer:
             case ["TCPROS", str(host), int(port), *_] if 0 < port < 65536:
-                return await self._shake_hands(
-                    await connect(host, port, timeout=node.timeouts.connect)
-                )
+                return await self._shake_hands(await connect(host, port, node.timeouts))
         if not offers:
             topic = self._subscription.name
             raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")

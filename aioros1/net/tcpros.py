@@ -19,15 +19,17 @@ from aioros1.errors import ClosedError
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.hosts import bind_sockets, resolve
-from aioros1.options import Limits
+from aioros1.options import Limits, Timeouts
 
 __all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
 
 _LOG = logging.getLogger("aioros1.tcpros")
 
-# Seconds idle, seconds between probes, probes: what roscpp sets on every connection,
-# so that a peer that lost its power is noticed at all.
-_KEEPALIVE = (60, 10, 9)
+# After so many parts of the first silence TCP asks again, and so often. Of a minute this
+# makes 10 seconds and 9 times: what roscpp sets, so that a peer that lost its power is
+# noticed at all.
+_PARTS, _PROBES = 6, 9
+_LONGEST = 32767  # seconds; no kernel takes more
 
 # What a Unix socket may hold that the other side has not read. The usual 200 KiB make a
 # message of 1 MB twice as slow, because sender and receiver then have to take turns.
@@ -48,7 +50,12 @@ class Stream:
 
     __slots__ = ("peer", "reader", "transport_name", "writer")
 
-    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    def __init__(
+        self,
+        reader: asyncio.StreamReader,
+        writer: asyncio.StreamWriter,
+        timeouts: Timeouts = Timeouts(),  # noqa: B008 - frozen
+    ) -> None:
         self.reader = reader
         self.writer = writer
         sock = writer.get_extra_info("socket")
@@ -58,7 +65,7 @@ class Stream:
         elif sock.family in (socket.AF_INET, socket.AF_INET6):
             self.transport_name = "TCPROS"
             self.peer = _address_text(writer.get_extra_info("peername"))
-            _tune(sock)
+            _tune(sock, timeouts)
         else:
             self.transport_name = "UNIXROS"
             self.peer = "this host"
@@ -120,13 +127,13 @@ class Stream:
         self.writer.transport.abort()
 
 
-async def connect(host: str, port: int, *, timeout: float) -> Stream:
+async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
     """A connection to ``host``; each of its addresses is tried in turn.
 
     Raises :class:`ConnectionError` or :class:`TimeoutError`, both naming host and port.
     """
     try:
-        async with asyncio.timeout(timeout):
+        async with asyncio.timeout(timeouts.connect):
             failure: OSError | None = None
             for family, address in await resolve(host, port):
                 try:
@@ -134,9 +141,9 @@ async def connect(host: str, port: int, *, timeout: float) -> Stream:
                 except OSError as error:
                     failure = error
                 else:
-                    return Stream(reader, writer)
+                    return Stream(reader, writer, timeouts)
     except TimeoutError:
-        raise TimeoutError(f"no connection to {host}:{port} within {timeout} s") from None
+        raise TimeoutError(f"no connection to {host}:{port} within {timeouts.connect} s") from None
     except OSError as error:  # the name could not be resolved
         failure = error
     raise ConnectionError(f"cannot connect to {host}:{port}: {failure}") from failure
@@ -201,11 +208,13 @@ class Listener:
         spawn: Callable[..., object],
         *,
         limits: Limits,
+        timeouts: Timeouts = Timeouts(),  # noqa: B008 - frozen
         allow: AllowList | None = None,
         log: logging.Logger | logging.LoggerAdapter[Any] | None = None,
     ) -> None:
         self._serve = serve
         self._spawn = spawn
+        self._timeouts = timeouts
         self.admission = Admission(
             "the TCPROS port",
             allow=allow,
@@ -247,7 +256,7 @@ class Listener:
             writer.transport.abort()
             return
         try:
-            stream = Stream(reader, writer)
+            stream = Stream(reader, writer, self._timeouts)
             self._spawn(partial(self._run, host), stream, name=f"tcpros {stream.peer}")
         except (ClosedError, OSError):  # nobody to serve it, or it has gone again
             self.admission.leave(host)
@@ -265,14 +274,23 @@ class Listener:
             self._servers.pop().close()
 
 
-def _tune(sock: socket.socket) -> None:
+def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
-    names = ("TCP_KEEPIDLE", "TCP_KEEPINTVL", "TCP_KEEPCNT")
-    for name, value in zip(names, _KEEPALIVE, strict=True):
-        option = getattr(socket, name, None)  # not every system has all three
+    idle = min(max(timeouts.keepalive, 1), _LONGEST)
+    given_up = max(idle + _PROBES * idle / _PARTS, timeouts.stall)
+    options = {
+        "TCP_KEEPIDLE": idle,
+        "TCP_KEEPINTVL": max(idle / _PARTS, 1),
+        "TCP_KEEPCNT": _PROBES,
+        # While there is data on its way nothing is probed: it is sent again and again, for
+        # a quarter of an hour. In milliseconds; where it is set, probes end with it too.
+        "TCP_USER_TIMEOUT": 1000 * min(given_up, 3 * _LONGEST),
+    }
+    for name, value in options.items():
+        option = getattr(socket, name, None)  # not every system has all of them
         if option is not None:
-            sock.setsockopt(socket.IPPROTO_TCP, option, value)
+            sock.setsockopt(socket.IPPROTO_TCP, option, round(value))
 
 
 def _address_text(address: object) -> str:

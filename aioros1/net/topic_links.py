@@ -187,6 +187,8 @@ class OutgoingLink(asyncio.Protocol):
         """What waits: the frame, and the publisher whose limits apply to it."""
         self.stalled = False
         """Whether the connection was cut off because nothing was taken from it."""
+        self.failure = ""
+        """What ended the connection, if it was neither side's wish."""
         self._owner = owner
         self._stall = stall
         self._closing = False
@@ -224,6 +226,8 @@ class OutgoingLink(asyncio.Protocol):
         self._owner.room_made()
 
     def connection_lost(self, exc: Exception | None) -> None:
+        if exc is not None and not self.failure:
+            self.failure = str(exc)
         self.is_open = False
         self.is_closed = True
         self._owner.messages_lost(self)
@@ -290,6 +294,7 @@ class OutgoingLink(asyncio.Protocol):
         now = self.unsent()
         if now == unsent:
             self.stalled = True
+            self.failure = "it took nothing for too long"
             self.abort()
             return
         loop = asyncio.get_running_loop()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import math
 import socket
 import struct
 from collections.abc import AsyncIterator
@@ -13,7 +14,7 @@ import pytest
 from aioros1.errors import ClosedError, HandshakeError
 from aioros1.net import tcpros
 from aioros1.net.tcpros import Listener, Stream, connect, connection_info, take_over
-from aioros1.options import Limits
+from aioros1.options import Limits, Timeouts
 from aioros1.wire.handshake import Server
 from aioros1.wire.header import encode_header
 
@@ -113,10 +114,12 @@ async def test_what_was_written_is_sent_before_the_stream_closes(pair):
 
 
 async def test_connecting_sets_what_roscpp_sets(listening):
-    stream = await connect("127.0.0.1", listening.getsockname()[1], timeout=5)
+    stream = await connect("127.0.0.1", listening.getsockname()[1], Timeouts())
     sock = stream.writer.get_extra_info("socket")
     assert sock.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
     assert sock.getsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE)
+    if hasattr(socket, "TCP_USER_TIMEOUT"):
+        assert keepalive(sock) == (60, 10, 9, 150_000)
     info = connection_info(stream, "/chatter", "i", "/x", {})
     assert info.local[0] == "127.0.0.1"
     assert info.remote == ("127.0.0.1", listening.getsockname()[1])
@@ -124,12 +127,38 @@ async def test_connecting_sets_what_roscpp_sets(listening):
     await drop(stream)
 
 
+def keepalive(sock: socket.socket) -> tuple[int, ...]:
+    names = ("TCP_KEEPIDLE", "TCP_KEEPINTVL", "TCP_KEEPCNT", "TCP_USER_TIMEOUT")
+    return tuple(sock.getsockopt(socket.IPPROTO_TCP, getattr(socket, name)) for name in names)
+
+
+@pytest.mark.skipif(not hasattr(socket, "TCP_USER_TIMEOUT"), reason="only Linux has all of it")
+@pytest.mark.parametrize(
+    ("timeouts", "expected"),
+    [
+        (Timeouts(keepalive=12, stall=1), (12, 2, 9, 30_000)),
+        (Timeouts(keepalive=2.4, stall=40), (2, 1, 9, 40_000)),
+        (Timeouts(keepalive=0.1, stall=0.5), (1, 1, 9, 2_500)),
+        (Timeouts(keepalive=math.inf, stall=math.inf), (32767, 5461, 9, 98_301_000)),
+    ],
+)
+async def test_both_sides_look_after_a_silent_peer(listening, timeouts, expected):
+    stream = await connect("127.0.0.1", listening.getsockname()[1], timeouts)
+    assert keepalive(stream.writer.get_extra_info("socket")) == expected
+    await drop(stream)
+    async with serving(timeouts) as (listener, served):
+        stream = await connect("127.0.0.1", listener.port, Timeouts())
+        await eventually(lambda: served.count == 1)
+        assert keepalive(served.streams[0].writer.get_extra_info("socket")) == expected
+        await drop(stream)
+
+
 async def test_a_refused_connection_names_host_and_port():
     with socket.socket() as deaf:  # bound, so that nobody takes the port, but not listening
         deaf.bind(("127.0.0.1", 0))
         port = deaf.getsockname()[1]
         with pytest.raises(ConnectionError, match=rf"127.0.0.1:{port}"):
-            await connect("127.0.0.1", port, timeout=5)
+            await connect("127.0.0.1", port, Timeouts())
 
 
 async def test_a_connection_that_takes_too_long_names_host_and_port():
@@ -142,7 +171,7 @@ async def test_a_connection_that_takes_too_long_names_host_and_port():
             waiting.setblocking(False)
             waiting.connect_ex(("127.0.0.1", port))
         with pytest.raises(TimeoutError, match=rf"127.0.0.1:{port} within 0.1 s"):
-            await connect("127.0.0.1", port, timeout=0.1)
+            await connect("127.0.0.1", port, Timeouts(connect=0.1))
 
 
 async def test_every_address_of_a_host_is_tried(listening, monkeypatch):
@@ -150,7 +179,7 @@ async def test_every_address_of_a_host_is_tried(listening, monkeypatch):
         return [(socket.AF_INET, "127.0.0.3"), (socket.AF_INET, "127.0.0.1")]
 
     monkeypatch.setattr(tcpros, "resolve", two)
-    stream = await connect("robot", listening.getsockname()[1], timeout=5)
+    stream = await connect("robot", listening.getsockname()[1], Timeouts())
     assert stream.peer.startswith("127.0.0.1:")
     await drop(stream)
 
@@ -158,7 +187,7 @@ async def test_every_address_of_a_host_is_tried(listening, monkeypatch):
 @pytest.mark.parametrize("host", ["a..b", "a" * 70, "no such host", ""])
 async def test_a_host_that_is_no_name_is_a_connection_error(host):
     with pytest.raises(ConnectionError, match="cannot connect to"):
-        await connect(host, 1, timeout=5)
+        await connect(host, 1, Timeouts())
 
 
 # taking over
@@ -230,8 +259,12 @@ class Served:
 
     def __init__(self) -> None:
         self.tasks: set[asyncio.Task[None]] = set()
-        self.count = 0
+        self.streams: list[Stream] = []
         self.is_closed = False
+
+    @property
+    def count(self) -> int:
+        return len(self.streams)
 
     def spawn(self, function, *args, name: str) -> None:
         if self.is_closed:
@@ -239,7 +272,7 @@ class Served:
         self.tasks.add(asyncio.create_task(function(*args), name=name))
 
     async def serve(self, stream: Stream) -> None:
-        self.count += 1
+        self.streams.append(stream)
         try:
             await stream.reader.read()
         finally:
@@ -247,9 +280,12 @@ class Served:
 
 
 @contextlib.asynccontextmanager
-async def serving(**limits: int) -> AsyncIterator[tuple[Listener, Served]]:
+async def serving(
+    timeouts: Timeouts = Timeouts(),  # noqa: B008 - frozen
+    **limits: int,
+) -> AsyncIterator[tuple[Listener, Served]]:
     served = Served()
-    listener = Listener(served.serve, served.spawn, limits=Limits(**limits))
+    listener = Listener(served.serve, served.spawn, limits=Limits(**limits), timeouts=timeouts)
     await listener.start("127.0.0.1", 0)
     try:
         yield listener, served
@@ -277,7 +313,7 @@ async def eventually(condition) -> None:
 
 async def test_every_connection_is_served_in_a_task_named_after_its_peer():
     async with serving() as (listener, served):
-        streams = [await connect("127.0.0.1", listener.port, timeout=5) for _ in range(3)]
+        streams = [await connect("127.0.0.1", listener.port, Timeouts()) for _ in range(3)]
         await eventually(lambda: served.count == 3)
         local = streams[0].writer.get_extra_info("sockname")
         assert f"tcpros 127.0.0.1:{local[1]}" in {task.get_name() for task in served.tasks}
@@ -286,14 +322,14 @@ async def test_every_connection_is_served_in_a_task_named_after_its_peer():
 
 async def test_connections_beyond_the_limit_are_closed_and_counted():
     async with serving(connections=2) as (listener, served):
-        first, second = [await connect("127.0.0.1", listener.port, timeout=5) for _ in range(2)]
+        first, second = [await connect("127.0.0.1", listener.port, Timeouts()) for _ in range(2)]
         await eventually(lambda: served.count == 2)
-        third = await connect("127.0.0.1", listener.port, timeout=5)
+        third = await connect("127.0.0.1", listener.port, Timeouts())
         assert await is_closed_at_once(third)
         assert (listener.admission.refused, served.count) == (1, 2)
         first.abort()
         await eventually(lambda: any(task.done() for task in served.tasks))
-        fourth = await connect("127.0.0.1", listener.port, timeout=5)
+        fourth = await connect("127.0.0.1", listener.port, Timeouts())
         await eventually(lambda: served.count == 3)
         await drop(first, second, third, fourth)
 
@@ -301,7 +337,7 @@ async def test_connections_beyond_the_limit_are_closed_and_counted():
 async def test_a_connection_that_comes_too_late_is_closed():
     async with serving() as (listener, served):
         served.is_closed = True
-        stream = await connect("127.0.0.1", listener.port, timeout=5)
+        stream = await connect("127.0.0.1", listener.port, Timeouts())
         assert await is_closed_at_once(stream)
         await drop(stream)
 
@@ -326,13 +362,13 @@ async def test_a_connection_that_is_lost_while_it_is_accepted_takes_no_place(mon
 
 async def test_closing_the_listener_leaves_connections_open():
     async with serving() as (listener, served):
-        stream = await connect("127.0.0.1", listener.port, timeout=5)
+        stream = await connect("127.0.0.1", listener.port, Timeouts())
         await eventually(lambda: served.count == 1)
         port = listener.port
         listener.close()
         listener.close()
         with pytest.raises(ConnectionError):
-            await connect("127.0.0.1", port, timeout=5)
+            await connect("127.0.0.1", port, Timeouts())
         assert not any(task.done() for task in served.tasks)
         await drop(stream)
 
