@@ -88,7 +88,8 @@ class MasterLost(Event):
 
 @dataclass(frozen=True, slots=True)
 class MasterRestarted(Event):
-    """The master is back, or was replaced, and has all registrations again."""
+    """The master is back, was replaced, or was told that this node has another address; it
+    has all registrations again."""
 
     uri: str
     run_id: str

@@ -1,13 +1,15 @@
-"""Noticing that the master is gone, back, or another one.
+"""Noticing that the master is gone, back, or another one, and that we have moved.
 
 Masters forget everything when they end, and tell nobody. A node that registered once
 would be a ghost from then on, so it asks again and again who the master is, and
-registers anew when that has changed.
+registers anew when that has changed. It would be one as well when its machine has got
+another address, and so it registers that one.
 """
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Awaitable, Iterable
 from typing import TYPE_CHECKING
 
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
@@ -15,6 +17,7 @@ from aioros1.events import MasterLost, MasterRestarted
 
 if TYPE_CHECKING:
     from aioros1.node import Node
+    from aioros1.registration import Registration
 
 __all__ = ["Heartbeat"]
 
@@ -26,7 +29,7 @@ class Heartbeat:
         self._node = node
         self._identity: tuple[int, str] | None = None
         self._is_lost = False
-        self._is_stale = False
+        self._stale: tuple[Registration, ...] = ()  # that the master may not have
         self._is_stopped = False
 
     def stop(self) -> None:
@@ -64,12 +67,15 @@ class Heartbeat:
             return
         known, self._identity = self._identity, identity
         was_lost, self._is_lost = self._is_lost, False
-        if self._is_stopped or (identity == known and not was_lost and not self._is_stale):
+        if self._is_stopped:
+            return
+        await self._move()
+        if identity == known and not was_lost and not self._stale:
             return
         # Also after an outage of the same master: what was registered meanwhile may
         # not have reached it.
-        self._is_stale = not await self._register_again()
-        if known is None or self._is_stale:
+        await self._register_again()
+        if known is None or self._stale:
             return
         node.log.warning("registered again at the master at %s", node.master_uri)
         node._emit(MasterRestarted(node.master_uri, identity[1]))
@@ -85,12 +91,34 @@ class Heartbeat:
             run_id = ""  # not set, or deleted
         return pid, run_id
 
-    async def _register_again(self) -> bool:
-        """Register everything anew, all at once; whether the master took all of it."""
-        registrations = tuple(self._node._roles.registrations)
-        results = await asyncio.gather(
-            *(registration.renew() for registration in registrations), return_exceptions=True
-        )
+    async def _move(self) -> None:
+        """Tell another address, if the one told is not this machine's any more."""
+        node = self._node
+        old, new = node._address.host, await node._address.successor()
+        if old is None or new is None:
+            return
+        node.log.warning("the address %s is lost; others are told %s now", old, new)
+        # Not only renewed: the master would take the same name at another address for
+        # another node, and tell whoever has the old address now to end.
+        registrations = self._all_registrations()
+        await self._each(registration.withdraw() for registration in registrations)
+        self._stale = registrations
+        node._address.host = new
+        node._roles.lose_address(old)
+        node._xmlrpc.close_idle()
+
+    async def _register_again(self) -> None:
+        """Register everything anew, all at once."""
+        registrations = self._all_registrations()
+        complete = await self._each(registration.renew() for registration in registrations)
+        self._stale = () if complete else registrations
+
+    def _all_registrations(self) -> tuple[Registration, ...]:
+        return tuple(dict.fromkeys((*self._stale, *self._node._roles.registrations)))
+
+    async def _each(self, requests: Iterable[Awaitable[None]]) -> bool:
+        """Send requests to the master; whether it took all of them."""
+        results = await asyncio.gather(*requests, return_exceptions=True)
         failures = [result for result in results if isinstance(result, BaseException)]
         for failure in failures:
             if not isinstance(failure, MasterError):

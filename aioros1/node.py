@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import logging
 import os
 from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping, Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
-from urllib.parse import urlsplit
 
 from aioros1 import names
 from aioros1.acceptor import Acceptor
@@ -22,14 +20,7 @@ from aioros1.identity import Identity
 from aioros1.idl import MessageStore, default_store
 from aioros1.master_proxy import MasterProxy
 from aioros1.net.allow import AllowList
-from aioros1.net.hosts import (
-    bind_address_for,
-    is_loopback,
-    is_wildcard,
-    local_address_facing,
-    resolve,
-    uri_host,
-)
+from aioros1.net.hosts import uri_host
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
 from aioros1.options import (
@@ -40,6 +31,7 @@ from aioros1.options import (
     OnError,
     Timeouts,
 )
+from aioros1.own_address import OwnAddress
 from aioros1.param_calls import ParamCalls
 from aioros1.peer import NodeProxy
 from aioros1.role import NodeStats, Role
@@ -75,9 +67,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     ``host`` is that, else all; without ``host``, it is also what others are told, unless it
     stands for all addresses. ``allow`` names the networks from which connections are taken
     (``["127.0.0.0/8", "10.0.0.5", "fd00::/8"]``), of all others none; the master, which
-    calls the node, has to be in one of them. ``argv`` gives the words of a command line, which then
-    count more than the environment and less than arguments (``__name:=``, ``__ns:=``,
-    ``a:=b``, ``_param:=value``). ``remap`` maps names as ``a:=b`` does.
+    calls the node, has to be in one of them. ``argv`` gives the words of a command line,
+    which then count more than the environment and less than arguments (``__name:=``,
+    ``__ns:=``, ``a:=b``, ``_param:=value``). ``remap`` maps names as ``a:=b`` does.
 
     ``store`` resolves type names. ``rosout`` publishes ``node.log`` on ``/rosout`` and
     ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
@@ -152,7 +144,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self.namespace = identity.namespace
         self.name = identity.name
         self.master_uri = identity.master_uri
-        self._host = identity.host
+        self._address = OwnAddress(identity.host, bind, identity.master_uri)
         self._remappings = identity.remappings
         self._private_params = identity.private_params
         self.log = logging.LoggerAdapter(logging.getLogger(logger_name(self.name)), {})
@@ -270,9 +262,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     @property
     def host(self) -> str:
         """What others are told to connect to."""
-        if self._host is None:
+        if self._address.host is None:
             raise RuntimeError(f"node {self.name} has no address before it is started")
-        return self._host
+        return self._address.host
 
     @property
     def uri(self) -> str:
@@ -426,13 +418,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._supervisor.end(reason)
 
     async def _begin(self) -> None:
-        bind = self.options.bind
-        if self._host is None:
-            if bind and not is_wildcard(bind):
-                self._host = bind
-            else:
-                self._host = await self._facing_host()
-        address = bind or bind_address_for(self._host)
+        address = await self._address.find()
         await self._acceptor.start(address, self.options.tcpros_port)
         await self._acceptor.local.start()
         await self._server.start(address, self.options.xmlrpc_port)
@@ -470,16 +456,6 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     async def _introduce_later(self) -> None:
         await self.wait_for_master()
         await self._introduce()
-
-    async def _facing_host(self) -> str:
-        """The address of this machine that faces the master."""
-        master = urlsplit(self.master_uri).hostname or "localhost"
-        if is_loopback(master):
-            return master
-        with contextlib.suppress(OSError):
-            addresses = await resolve(master)
-            return local_address_facing(addresses[0][1])
-        return "localhost"
 
     async def _finish(self) -> None:
         self._state = "closing"

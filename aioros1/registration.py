@@ -58,6 +58,12 @@ class Registration:
             if not self.users:
                 await self._unregister()
 
+    async def withdraw(self) -> None:
+        """Take it back from the master, to be renewed. Raises :class:`~aioros1.MasterError`."""
+        async with self._lock:
+            if self.users:
+                await self._unregister()
+
     async def renew(self) -> None:
         """Register again, if there are users."""
         async with self._lock:

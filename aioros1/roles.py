@@ -44,6 +44,12 @@ class Shared(Protocol):
 S = TypeVar("S", bound=Shared)
 
 
+class Link(Protocol):
+    """One connection."""
+
+    def abort(self) -> None: ...
+
+
 class Roles:
     """Everything a node does in the graph."""
 
@@ -195,6 +201,24 @@ class Roles:
         for role in tuple(self.open):
             role._abort()
         self.open.clear()
+
+    def lose_address(self, host: str) -> None:
+        """Drop all connections of an address of this machine, which it has lost: nothing
+        comes there any more, not even their end."""
+        for link, info in self._links():
+            if info.local[0] == host:
+                link.abort()
+
+    def _links(self) -> list[tuple[Link, ConnectionInfo]]:
+        links: list[tuple[Link, ConnectionInfo]] = []
+        for publication in self.publications.values():
+            links += ((link, link.info) for link in publication.links)
+        for subscription in self.subscriptions.values():
+            links += ((link, link.info) for link in subscription.links)
+        for role in self.open:
+            if isinstance(role, ServiceCaller | ServiceProvider):
+                links += role.links
+        return links
 
     async def close_publisher(self, publisher: Publisher[Any], publication: Publication) -> None:
         publication.remove(publisher)

@@ -148,6 +148,10 @@ class ServiceProvider(Role, Generic[Q, A]):
         return tuple(self._connections.values())
 
     @property
+    def links(self) -> tuple[tuple[ServiceLink, ConnectionInfo], ...]:
+        return tuple(self._connections.items())
+
+    @property
     def uri(self) -> str:
         """The ``rosrpc://host:port`` that callers are given by the master."""
         return self._node.tcpros_uri

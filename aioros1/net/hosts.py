@@ -17,6 +17,8 @@ __all__ = [
     "advertised_host",
     "bind_address_for",
     "bind_sockets",
+    "every_interface",
+    "is_local",
     "is_loopback",
     "is_wildcard",
     "local_address",
@@ -97,7 +99,15 @@ def bind_address_for(host: str) -> str:
     else means all interfaces, as for every program of ROS 1."""
     if is_loopback(host):
         return host.strip("[]") if _literal(host) else "127.0.0.1"
-    return "::" if ":" in host else "0.0.0.0"
+    return every_interface(host)
+
+
+def every_interface(host: str) -> str:
+    """Where to listen to be reached as ``host``, by whatever interface: on IPv6 as well if
+    it is an address of that kind, or a name and ``ROS_IPV6`` is ``on``."""
+    is_name = _literal(host) is None
+    is_ipv6 = ":" in host or (is_name and os.environ.get("ROS_IPV6") == "on")
+    return "::" if is_ipv6 else "0.0.0.0"
 
 
 def is_loopback(host: str) -> bool:
@@ -108,6 +118,20 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host.strip("[]")).is_loopback
     except ValueError:
         return False
+
+
+def is_local(host: str) -> bool:
+    """Whether ``host`` is a numeric address of this machine now."""
+    literal = _literal(host)
+    if literal is None:
+        return False
+    family, address = literal
+    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.bind((address, 0))
+        except OSError:
+            return False
+        return True
 
 
 def is_wildcard(host: str) -> bool:

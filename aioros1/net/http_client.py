@@ -7,6 +7,7 @@ makes twice as expensive; docs/design/xmlrpc.md has the figures.
 from __future__ import annotations
 
 import asyncio
+import math
 from functools import lru_cache
 from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
@@ -87,6 +88,11 @@ class HttpClient:
         finally:
             pool.users -= 1
 
+    def close_idle(self) -> None:
+        """Close the connections that no request is using."""
+        for pool in self._pools.values():
+            pool.close_idle()
+
     async def close(self) -> None:
         """Close every connection. No request may be in progress."""
         if self._sweeper is not None:
@@ -104,6 +110,11 @@ class HttpClient:
         if connection is not None:
             try:
                 await connection.exchange(server.head, body, answer)
+            except asyncio.CancelledError:
+                # Out of time, most likely. If the way to the server is gone, all that are
+                # kept are dead, and each would take its time.
+                pool.close_idle()
+                raise
             except ConnectionResetError as error:
                 # Perhaps the server closed the kept connection while the request was on
                 # its way. Then, and only then, it is sent once more, on a connection that
@@ -174,7 +185,7 @@ class _Pool:
         else:
             connection.abort()
 
-    def close_idle(self, since: float) -> None:
+    def close_idle(self, since: float = math.inf) -> None:
         for connection in self.idle:
             if connection.idle_since <= since:
                 connection.abort()

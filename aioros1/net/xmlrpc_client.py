@@ -78,6 +78,10 @@ class XmlRpcClient:
             return ConnectionAbortedError(f"{what}: the client was closed")
         return TimeoutError(f"{what}: no answer within {seconds:g} s")
 
+    def close_idle(self) -> None:
+        """Keep no connection that is there now: all of them may be dead."""
+        self._http.close_idle()
+
     async def close(self) -> None:
         """Close every connection. Calls in progress fail with :class:`ConnectionError`."""
         self._closed = True

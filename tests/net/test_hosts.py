@@ -12,6 +12,7 @@ from aioros1.net.hosts import (
     advertised_host,
     bind_address_for,
     bind_sockets,
+    is_local,
     is_loopback,
     is_wildcard,
     local_address,
@@ -121,6 +122,23 @@ def test_advertised_host_without_a_network(monkeypatch: pytest.MonkeyPatch) -> N
 )
 def test_where_to_listen(host: str, expected: str) -> None:
     assert bind_address_for(host) == expected
+
+
+def test_where_to_listen_if_names_may_be_of_ipv6(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_IPV6", "on")
+    listening = {host: bind_address_for(host) for host in ("robot", "10.0.0.1", "localhost")}
+    assert listening == {"robot": "::", "10.0.0.1": "0.0.0.0", "localhost": "127.0.0.1"}
+
+
+def test_which_addresses_are_ours() -> None:
+    assert is_local("127.0.0.1")
+    # The first is reserved for documentation, the last no address at all.
+    assert not any(is_local(host) for host in ("192.0.2.1", "2001:db8::1", "localhost"))
+
+
+def test_which_addresses_are_all() -> None:
+    assert all(is_wildcard(host) for host in ("0.0.0.0", "::", "[::]"))
+    assert not any(is_wildcard(host) for host in ("127.0.0.1", "::1", "localhost", "robot"))
 
 
 def test_hosts_in_uris() -> None:

@@ -349,6 +349,29 @@ async def test_a_connection_of_a_cancelled_call_is_never_used_again(begun: bytes
     assert serving.connections == 2
 
 
+async def test_after_a_call_without_an_answer_no_kept_connection_is_trusted() -> None:
+    """When the way to a server is gone, all of them are dead, and say nothing of it."""
+
+    class Failing(Serving):
+        async def respond(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            if self.requests[-1][0] == "stuck":
+                await reader.read()
+            await super().respond(reader, writer)
+
+    serving = Failing(KEEPING["roscpp"])
+    async with scripted(serving) as uri, client() as ours:
+        await asyncio.gather(*(ours.call(uri, "m", count) for count in range(3)))
+        assert serving.open == 3
+        with pytest.raises(TimeoutError):
+            await ours.call(uri, "stuck", timeout=0.05)
+        await serving.until(open=0)
+        assert await ours.call(uri, "m") == VALUE
+        ours.close_idle()
+        await serving.until(open=0)
+        assert await ours.call(uri, "m") == VALUE
+        assert serving.connections == 5
+
+
 async def test_closing_ends_calls_wherever_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
     serving = Stuck(b"")
     async with scripted(serving) as uri:

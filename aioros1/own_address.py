@@ -1,0 +1,65 @@
+"""What a node tells others to connect to, and what becomes of that when it is lost."""
+
+from __future__ import annotations
+
+import contextlib
+from urllib.parse import urlsplit
+
+from aioros1.net.hosts import (
+    bind_address_for,
+    every_interface,
+    is_local,
+    is_loopback,
+    is_wildcard,
+    local_address_facing,
+    resolve,
+)
+
+__all__ = ["OwnAddress"]
+
+
+class OwnAddress:
+    """The address of one node: the one it was given, or the one that faces its master.
+
+    ``given`` is what arguments and environment say, ``bind`` where to listen. One address
+    to listen on is one to tell.
+    """
+
+    def __init__(self, given: str | None, bind: str | None, master_uri: str) -> None:
+        self._master = urlsplit(master_uri).hostname or "localhost"
+        self._bind = bind
+        if given is None and bind is not None and not is_wildcard(bind):
+            given = bind
+        if given is None and is_loopback(self._master):
+            given = self._master
+        self._is_given = given is not None
+        self.host = given
+        """What others are told; None before :meth:`find`."""
+
+    async def find(self) -> str:
+        """Look for an address that nobody has given; return where to listen."""
+        if self.host is None:
+            self.host = await self._facing() or "localhost"
+        if self._bind is not None:
+            return self._bind
+        if self._is_given:
+            return bind_address_for(self.host)
+        # Also when there is no network yet, and therefore nothing to tell but localhost.
+        return every_interface(self.host)
+
+    async def successor(self) -> str | None:
+        """What to tell now, if the address that was told is this machine's no more.
+
+        As long as it is, others can go on using it, whatever faces the master now.
+        """
+        if self._is_given or self.host is None or is_local(self.host):
+            return None
+        return await self._facing()
+
+    async def _facing(self) -> str | None:
+        """The address of this machine that faces the master, if any does."""
+        with contextlib.suppress(OSError):
+            for _, address in await resolve(self._master):
+                with contextlib.suppress(OSError):
+                    return local_address_facing(address)
+        return None
