@@ -23,15 +23,15 @@ else:
     LOOPS["uvloop"] = uvloop.new_event_loop
 
 PATH_FUNCTIONS = {"crawled", "directories", "find", "packages", "types"}
-INTEROP = Path(__file__).parent / "interop"
+# What the real programs do on the wire, and several hosts, does not depend on our loop.
+ONE_LOOP = {Path(__file__).parent / name for name in ("interop", "hosts")}
 
 
 def pytest_asyncio_loop_factories(
     config: pytest.Config, item: pytest.Item
 ) -> dict[str, Callable[[], asyncio.AbstractEventLoop]]:
-    # What the real programs do on the wire does not depend on our loop, and starting
-    # them takes time; tests that should see both say so themselves.
-    if INTEROP in item.path.parents:
+    # Starting programs takes time; tests that should see both loops say so themselves.
+    if ONE_LOOP.intersection(item.path.parents):
         return {"asyncio": LOOPS["asyncio"]}
     return LOOPS
 
@@ -43,7 +43,8 @@ def pytest_runtest_makereport(
     """Where everything has to be installed, a test that is skipped for lack of it fails."""
     report = yield
     required = os.environ.get("AIOROS1_REQUIRE_INTEROP") == "1"
-    if required and report.skipped and item.get_closest_marker("interop"):
+    needs = any(item.get_closest_marker(name) for name in ("interop", "hosts"))
+    if required and report.skipped and needs:
         report.outcome = "failed"
     return report
 
