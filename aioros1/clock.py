@@ -8,7 +8,7 @@ import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import TYPE_CHECKING, Any
 
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, MasterUnreachable
 from aioros1.time import Duration, Time
 from aioros1.waiting import Waiters
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from aioros1.node import Node
 
 __all__ = ["Clock", "Timer"]
+
+_RETRY = 1.0
 
 
 class Clock:
@@ -45,8 +47,13 @@ class Clock:
         self._changed.wake()
 
     async def follow(self, node: Node) -> None:
-        """Take the time from ``/clock``."""
-        subscriber = await node.subscribe("/clock", "rosgraph_msgs/Clock", queue_size=1)
+        """Take the time from ``/clock``, as soon as the master lets us."""
+        subscriber = None
+        while subscriber is None:
+            try:
+                subscriber = await node.subscribe("/clock", "rosgraph_msgs/Clock", queue_size=1)
+            except MasterUnreachable:
+                await node._pause(_RETRY)
         async for message in subscriber:
             self.set(message.clock)
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 from aioros1 import names
 from aioros1.acceptor import Acceptor
 from aioros1.clock import Clock, Timer
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, MasterUnreachable
 from aioros1.events import Broadcast, Event, EventStream
 from aioros1.graph import Graph
 from aioros1.heartbeat import Heartbeat
@@ -426,9 +426,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._state = "open"
         if self.options.use_sim_time:
             self._clock.simulate()
-        if master_is_there:
-            await self._introduce()
-        else:
+        if not (master_is_there and await self._introduced()):
             self._spawn(self._introduce_later, name=f"{self.name} introduction")
         if self.options.rosout:
             self._rosout = Rosout(self)
@@ -445,17 +443,28 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         simulated = self.options.use_sim_time
         if simulated is None:
             simulated = bool(await self.get_param("/use_sim_time", False))
+        has_statistics = await self.get_param("/enable_statistics", False) is True
+        # All that may fail, and is then done again, is behind us.
         if simulated:
             self._clock.simulate()
             self._spawn(self._clock.follow, self, name=f"{self.name} clock")
-        if await self.get_param("/enable_statistics", False) is True:
+        if has_statistics:
             from aioros1 import statistics  # here, as hardly anybody wants it
 
             self._spawn(statistics.Statistics(self).run, name=f"{self.name} statistics")
 
+    async def _introduced(self) -> bool:
+        """Whether the master was there long enough for that."""
+        try:
+            await self._introduce()
+        except MasterUnreachable:
+            return False
+        return True
+
     async def _introduce_later(self) -> None:
         await self.wait_for_master()
-        await self._introduce()
+        while not await self._introduced():
+            await self.wait_for_master()
 
     async def _finish(self) -> None:
         self._state = "closing"

@@ -12,7 +12,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, MasterUnreachable
 from aioros1.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ __all__ = ["Statistics"]
 
 _SECOND = 1_000_000_000
 _FIRST_WINDOW = _SECOND
+_RETRY = 1.0
 _LEFT_OUT = frozenset({"/statistics", "/clock"})
 _HEADER = struct.Struct("<III")  # seq, and the stamp's seconds and nanoseconds
 
@@ -48,15 +49,21 @@ class Statistics:
 
     async def run(self) -> None:
         """Read the parameters, advertise the topic, and have received from then on."""
-        node = self._node
+        while self._publisher is None:
+            try:
+                await self._begin()
+            except MasterUnreachable:
+                await self._node._pause(_RETRY)
+        self._node._statistics = self
+
+    async def _begin(self) -> None:
         for name, default in _PARAMS.items():
-            value = await node.get_param(f"/statistics_window_{name}", default)
+            value = await self._node.get_param(f"/statistics_window_{name}", default)
             if isinstance(value, (int, float)):
                 self._bounds[name] = value
-        self._publisher = await node.advertise(
+        self._publisher = await self._node.advertise(
             "/statistics", "rosgraph_msgs/TopicStatistics", queue_size=10
         )
-        node._statistics = self
 
     def received(self, subscription: Subscription, frames: list[Received]) -> None:
         """Count what came over one connection; and publish, when its window is over."""

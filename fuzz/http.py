@@ -177,11 +177,11 @@ def _status(line: bytes) -> tuple[int, int, str]:
     return int(version), int(code), after.lstrip(b" ").decode("latin-1")
 
 
-def _line(stream: bytes, position: int) -> tuple[bytes, int]:
-    """A line without its end, and where the next begins; it is bounded, its end included."""
+def _line(stream: bytes, position: int, most: int = 1 << 30) -> tuple[bytes, int]:
+    """A line without its end, and where the next begins. It is bounded, whole or not."""
     end = stream.find(b"\n", position)
     size = (len(stream) if end < 0 else end) - position
-    if size >= _MAX_HEAD:
+    if size >= _MAX_HEAD or size > most:
         raise _Wrong
     if end < 0:
         raise _More
@@ -210,12 +210,11 @@ def _chunks(stream: bytes, position: int) -> tuple[bytes, int]:
             raise _Wrong
     left = _MAX_HEAD
     while True:
-        line, position = _line(stream, position)
+        line, after = _line(stream, position, left)
+        left -= after - 1 - position
+        position = after
         if not line:
             return body, position
-        left -= len(line)
-        if left < 0:
-            raise _Wrong
 
 
 def seeds() -> Iterator[bytes]:

@@ -180,30 +180,33 @@ class AnswerReader:
                 position += len(piece)
                 self._next = _CHUNK_END
             end = data.find(b"\n", position)
+            # The same bound for a line that has come and for what there is of one, so that
+            # it makes no difference in which pieces it comes.
+            line = _bounded(data[position : end if end >= 0 else len(data)], "line")
+            if self._next == _TRAILER and len(line) > self._left:
+                raise HttpError(f"not an HTTP answer: a trailer of more than {MAX_HEAD} bytes")
             if end < 0:
-                self._rest = _bounded(data[position:], "line")
+                self._rest = line
                 return False
-            line = data[position:end].removesuffix(b"\r")
             position = end + 1
+            text = line.removesuffix(b"\r")
             if self._next == _CHUNK_SIZE:
-                size = _CHUNK.fullmatch(_bounded(line, "line"))
+                size = _CHUNK.fullmatch(text)
                 if size is None:
-                    raise _not_http(line)
+                    raise _not_http(text)
                 self._left = self._within_limit(int(size[1], 16))
                 self._next = _CHUNK_DATA
                 if not self._left:
                     self._left = MAX_HEAD
                     self._next = _TRAILER
             elif self._next == _TRAILER:
-                if not line:
+                if not text:
                     self.keeps_alive = self.keeps_alive and position == len(data)
                     self._complete(bytes(self._body))
                     return True
                 self._left -= len(line)
-                if self._left < 0:
-                    raise HttpError(f"not an HTTP answer: a trailer of more than {MAX_HEAD} bytes")
-            elif line:
-                raise _not_http(line)
+            elif text:
+                raise _not_http(text)
             else:
                 self._next = _CHUNK_SIZE
 

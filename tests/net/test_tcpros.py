@@ -92,12 +92,12 @@ async def test_writing_to_a_peer_that_takes_nothing_is_given_up(pair):
 
 async def test_writing_to_a_peer_that_is_slow_is_not_given_up(pair):
     stream, peer = pair
-    writing = asyncio.create_task(stream.write(bytes(6_000_000), stall=0.2))
+    writing = asyncio.create_task(stream.write(bytes(6_000_000), stall=1))
     taken = 0
     loop = asyncio.get_running_loop()
     while not writing.done():
-        taken += len(await loop.sock_recv(peer, 300_000))
-        await asyncio.sleep(0.03)
+        taken += len(await loop.sock_recv(peer, 100_000))
+        await asyncio.sleep(0.02)
     await writing
     assert taken > 2_000_000
 
@@ -343,11 +343,11 @@ async def test_a_connection_that_comes_too_late_is_closed():
 
 
 async def test_a_connection_that_is_lost_while_it_is_accepted_takes_no_place(monkeypatch):
-    def gone(sock: socket.socket) -> None:
+    def gone(sock: socket.socket, timeouts: Timeouts) -> None:
         raise OSError("not connected any more")
 
     async with serving(connections=1) as (listener, served):
-        stream = await connect("127.0.0.1", listener.port, timeout=5)
+        stream = await connect("127.0.0.1", listener.port, Timeouts())
         await eventually(lambda: served.count == 1)
         await drop(stream)
         await eventually(lambda: listener.admission.open == 0)

@@ -179,6 +179,17 @@ def test_heads_and_lines_are_bounded(begin: bytes, text: str) -> None:
         AnswerReader(max_bytes=1 << 30).receive_data(begin + b"1" * MAX_HEAD + b"\r\n\r\n")
 
 
+@pytest.mark.parametrize("size", [1, 1000, 1 << 20])
+def test_a_trailer_is_bounded_whatever_its_pieces(size: int) -> None:
+    """A line of it that has not ended yet counts as well."""
+    trailer = b"A: 1\r\n" + b"x" * (MAX_HEAD - 4)
+    stream = OK + b"Transfer-Encoding: chunked\r\n\r\n0\r\n" + trailer
+    reader = AnswerReader(max_bytes=100)
+    with pytest.raises(HttpError, match="a trailer of more than"):
+        for begin in range(0, len(stream), size):
+            reader.receive_data(stream[begin : begin + size])
+
+
 def test_a_trailer_is_bounded() -> None:
     reader = AnswerReader(max_bytes=1000)
     assert not reader.receive_data(OK + b"Transfer-Encoding: chunked\r\n\r\n0\r\n")
