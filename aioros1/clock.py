@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import time
-from collections.abc import AsyncIterator, Awaitable, Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING, Any, Self
 
 from aioros1.errors import ClosedError, MasterUnreachable
 from aioros1.time import Duration, Time
@@ -15,7 +14,7 @@ from aioros1.waiting import Waiters
 if TYPE_CHECKING:
     from aioros1.node import Node
 
-__all__ = ["Clock", "Timer"]
+__all__ = ["Clock", "Rate", "Timer"]
 
 _RETRY = 1.0
 
@@ -61,59 +60,100 @@ class Clock:
         """No more time comes; whoever waits for it gets ``error``."""
         self._changed.fail(error)
 
+    def check(self) -> None:
+        """Raise what :meth:`fail` was given, if it was."""
+        self._changed.check()
+
     async def sleep(self, duration: float | Duration) -> None:
         """Wait for ``duration`` seconds of this clock."""
         seconds = duration.to_sec() if isinstance(duration, Duration) else duration
-        await self._wait_until(await self._begin() + round(seconds * 1e9))
+        await self.wait_until(await self.begin() + round(seconds * 1e9))
 
-    async def rate(self, hz: float) -> AsyncIterator[Time]:
-        """Yield the time, ``hz`` times a second, until the node is closed.
+    def rate(self, hz: float) -> Rate:
+        """Gives the time, ``hz`` times a second, until the node is closed."""
+        return Rate(self, hz)
 
-        The phase is kept: a body that takes a while shortens the pause after it, and one
-        that takes longer than a period makes the ticks it missed be skipped. By the wall
-        clock one that is missed by less than a period comes late instead, as in rospy:
-        timers are a millisecond coarse, and a kilohertz would lose every tenth tick.
-        """
-        if not hz > 0:
-            raise ValueError(f"a rate must be positive, got {hz!r}")
-        period = round(1e9 / hz)
-        with contextlib.suppress(ClosedError):
-            tick = await self._begin() + period
-            while True:
-                await self._wait_until(tick)
-                self._changed.check()  # no tick for a node whose roles are closed already
-                yield Time.from_nsec(self.nanoseconds())
-                now = self._steady()
-                if now < tick - period:  # a jump backwards: a new phase
-                    tick = now
-                missed = (now - tick) // period
-                if missed == 1 and not self.is_simulated:
-                    missed = 0
-                tick += period * max(1, missed + 1)
-
-    def _steady(self) -> int:
+    def steady(self) -> int:
         """What waiting goes by. Not the wall clock, which can be set."""
         return self._simulated if self.is_simulated else time.monotonic_ns()
 
-    async def _begin(self) -> int:
+    async def begin(self) -> int:
         """The time from which to wait: not before there is any."""
         while self.is_simulated and not self._simulated:
             await self._changed.wait()
-        return self._steady()
+        return self.steady()
 
-    async def _wait_until(self, moment: int) -> None:
+    async def wait_until(self, moment: int) -> None:
+        """Wait until :meth:`steady` has come to ``moment``."""
         if self.is_simulated:
             last = self._simulated
             while last <= self._simulated < moment:
                 last = self._simulated
                 await self._changed.wait()
             return
-        if moment <= self._steady():
+        if moment <= self.steady():
             await asyncio.sleep(0)  # others want to run all the same
-        while not self.is_simulated and (left := moment - self._steady()) > 0:
+        while not self.is_simulated and (left := moment - self.steady()) > 0:
             # Nothing changes the wall clock but the end of the node. The timers of loops are
             # a millisecond coarse; uvloop's end at once if there is less than half of one.
             await self._changed.wait(max(left / 1e9, 1e-3))
+
+
+class Rate:
+    """An iterator over the times at which a period begins; made by :meth:`Node.rate`.
+
+    The phase is kept: a body that takes a while shortens the pause after it, and one
+    that takes longer than a period makes the ticks it missed be skipped. By the wall
+    clock one that is missed by less than a period comes late instead, as in rospy:
+    timers are a millisecond coarse, and a kilohertz would lose every tenth tick.
+    """
+
+    # Not a generator: the first cancellation, or a time limit of one tick, would end that.
+
+    def __init__(self, clock: Clock, hz: float) -> None:
+        if not hz > 0:
+            raise ValueError(f"a rate must be positive, got {hz!r}")
+        self._clock = clock
+        self._period = round(1e9 / hz)
+        self._tick: int | None = None
+        """When the period that is waited for, or that runs, has begun or will begin."""
+        self._was_given = False
+        self._has_ended = False
+
+    def __aiter__(self) -> Self:
+        return self
+
+    async def __anext__(self) -> Time:
+        clock = self._clock
+        try:
+            clock.check()
+            if self._has_ended:
+                raise StopAsyncIteration
+            if self._tick is None:
+                self._tick = await clock.begin() + self._period
+            elif self._was_given:
+                self._tick = self._next(self._tick)
+            self._was_given = False
+            await clock.wait_until(self._tick)
+            clock.check()  # no tick for a node whose roles are closed already
+        except ClosedError:
+            raise StopAsyncIteration from None
+        self._was_given = True
+        return Time.from_nsec(clock.nanoseconds())
+
+    async def aclose(self) -> None:
+        """End the iteration. There is no need to: nothing is held."""
+        self._has_ended = True
+
+    def _next(self, tick: int) -> int:
+        clock, period = self._clock, self._period
+        now = clock.steady()
+        if now < tick - period:  # a jump backwards: a new phase
+            tick = now
+        missed = (now - tick) // period
+        if missed == 1 and not clock.is_simulated:
+            missed = 0
+        return tick + period * max(1, missed + 1)
 
 
 class Timer:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from aioros1.errors import ClosedError, MasterError
 from aioros1.waiting import deadline
@@ -12,7 +12,7 @@ from aioros1.waiting import deadline
 if TYPE_CHECKING:
     from aioros1.node import Node
 
-__all__ = ["Graph", "GraphChange", "GraphSnapshot"]
+__all__ = ["Graph", "GraphChange", "GraphChanges", "GraphSnapshot"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,24 +82,10 @@ class Graph:
         )
         return GraphSnapshot(publishers, subscribers, services, dict(types))
 
-    async def changes(self, poll: float = 1.0) -> AsyncIterator[GraphChange]:
-        """Yield what has changed since the call, looking every ``poll`` seconds.
-
-        Ends when the node is closed. Raises :class:`~aioros1.MasterError`.
-        """
-        node = self._node
-        try:
-            before = await self.snapshot()
-            while True:
-                await node._pause(poll)
-                now = await self.snapshot()
-                old, new = before._edges(), now._edges()
-                before = now
-                if old != new:
-                    yield GraphChange(now, new - old, old - new)
-        except (ClosedError, MasterError):
-            if node.is_open:
-                raise
+    def changes(self, poll: float = 1.0) -> GraphChanges:
+        """Iterate over what has changed since the iteration began, looking every ``poll``
+        seconds. Ends when the node is closed."""
+        return GraphChanges(self, poll)
 
     async def wait_for(
         self,
@@ -117,3 +103,42 @@ class Graph:
             while not predicate(snapshot := await self.snapshot()):
                 await self._node._pause(poll)
         return snapshot
+
+
+class GraphChanges:
+    """An iterator over the changes of a graph; made by :meth:`Graph.changes`.
+
+    It can be gone on with after an error, or when it was cancelled: what has changed
+    meanwhile is in the next change.
+    """
+
+    def __init__(self, graph: Graph, poll: float) -> None:
+        self._graph = graph
+        self._poll = poll
+        self._before: GraphSnapshot | None = None
+        self._has_ended = False
+
+    def __aiter__(self) -> Self:
+        return self
+
+    async def __anext__(self) -> GraphChange:
+        """The next change. Raises :class:`~aioros1.MasterError`."""
+        node = self._graph._node
+        try:
+            if self._before is None and not self._has_ended:
+                self._before = await self._graph.snapshot()
+            while self._before is not None and not self._has_ended:
+                await node._pause(self._poll)
+                now = await self._graph.snapshot()
+                old, new = self._before._edges(), now._edges()
+                self._before = now
+                if old != new:
+                    return GraphChange(now, new - old, old - new)
+        except (ClosedError, MasterError):
+            if node.is_open:
+                raise
+        raise StopAsyncIteration
+
+    async def aclose(self) -> None:
+        """End the iteration. There is no need to: nothing is held."""
+        self._has_ended = True

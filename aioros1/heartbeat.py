@@ -29,7 +29,7 @@ class Heartbeat:
         self._node = node
         self._identity: tuple[int, str] | None = None
         self._is_lost = False
-        self._stale: tuple[Registration, ...] = ()  # that the master may not have
+        self._is_stale = False
         self._is_stopped = False
 
     def stop(self) -> None:
@@ -70,12 +70,13 @@ class Heartbeat:
         if self._is_stopped:
             return
         await self._move()
-        if identity == known and not was_lost and not self._stale:
+        if identity == known and not was_lost and not self._is_stale:
+            await self._settle()
             return
         # Also after an outage of the same master: what was registered meanwhile may
         # not have reached it.
-        await self._register_again()
-        if known is None or self._stale:
+        self._is_stale = not await self._register_again()
+        if known is None or self._is_stale:
             return
         node.log.warning("registered again at the master at %s", node.master_uri)
         node._emit(MasterRestarted(node.master_uri, identity[1]))
@@ -100,28 +101,31 @@ class Heartbeat:
         node.log.warning("the address %s is lost; others are told %s now", old, new)
         # Not only renewed: the master would take the same name at another address for
         # another node, and tell whoever has the old address now to end.
-        registrations = self._all_registrations()
-        await self._each(registration.withdraw() for registration in registrations)
-        self._stale = registrations
+        self._is_stale = True
+        await self._all(registration.withdraw() for registration in self._registrations)
         node._address.host = new
         node._roles.lose_address(old)
         node._xmlrpc.close_idle()
 
-    async def _register_again(self) -> None:
-        """Register everything anew, all at once."""
-        registrations = self._all_registrations()
-        complete = await self._each(registration.renew() for registration in registrations)
-        self._stale = () if complete else registrations
+    async def _register_again(self) -> bool:
+        """Register everything anew, all at once; whether the master took all of it."""
+        return await self._all(registration.renew() for registration in self._registrations)
 
-    def _all_registrations(self) -> tuple[Registration, ...]:
-        return tuple(dict.fromkeys((*self._stale, *self._node._roles.registrations)))
+    async def _settle(self) -> None:
+        """Tell the master what it could not be told, or may not have heard."""
+        behind = [registration for registration in self._registrations if registration.is_behind]
+        if behind:
+            await self._all(registration.settle() for registration in behind)
 
-    async def _each(self, requests: Iterable[Awaitable[None]]) -> bool:
-        """Send requests to the master; whether it took all of them."""
-        results = await asyncio.gather(*requests, return_exceptions=True)
+    @property
+    def _registrations(self) -> tuple[Registration, ...]:
+        return tuple(self._node._roles.registrations.values())
+
+    async def _all(self, telling: Iterable[Awaitable[None]]) -> bool:
+        results = await asyncio.gather(*telling, return_exceptions=True)
         failures = [result for result in results if isinstance(result, BaseException)]
         for failure in failures:
             if not isinstance(failure, MasterError):
                 raise failure
-            self._node.log.warning("cannot register again: %s", failure)
+            self._node.log.warning("cannot register: %s", failure)
         return not failures

@@ -39,8 +39,11 @@ class MasterProxy:
     ``timeouts.xmlrpc``, and :class:`~aioros1.MasterError` when the master refuses.
     """
 
-    def __init__(self, client: XmlRpcClient, uri: str, caller_id: str) -> None:
+    def __init__(
+        self, client: XmlRpcClient, uri: str, caller_id: str, *, timeout: float | None = None
+    ) -> None:
         self._client = client
+        self._timeout = timeout
         self.uri = uri
         self.caller_id = caller_id
         self.last_seen: float | None = None
@@ -53,7 +56,9 @@ class MasterProxy:
         """
         params = (self.caller_id, *params)
         value = await call_triple(
-            self._client, self.uri, method, params, MasterError, MasterUnreachable, read=read
+            *(self._client, self.uri, method, params, MasterError, MasterUnreachable),
+            read=read,
+            timeout=self._timeout,
         )
         self.last_seen = time.monotonic()
         return value

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import math
 import os
-from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from aioros1 import names
 from aioros1.acceptor import Acceptor
-from aioros1.clock import Clock, Timer
+from aioros1.clock import Clock, Rate, Timer
 from aioros1.errors import ClosedError, MasterUnreachable
 from aioros1.events import Broadcast, Event, EventStream
 from aioros1.graph import Graph
@@ -152,6 +153,8 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
 
         self._xmlrpc = XmlRpcClient(timeouts=timeouts, limits=limits)
         self.master = MasterProxy(self._xmlrpc, self.master_uri, self.name)
+        # Who waits for a registration has a limit of time; the request has none.
+        self._registrar = MasterProxy(self._xmlrpc, self.master_uri, self.name, timeout=math.inf)
         self._server = XmlRpcServer(SlaveApi(self).methods, limits=limits, allow=self._allow)
         self._acceptor = Acceptor(self)
         self._clock = Clock()
@@ -355,8 +358,11 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         """Wait for seconds of this node's time. Raises :class:`~aioros1.ClosedError`."""
         await self._clock.sleep(duration)
 
-    def rate(self, hz: float) -> AsyncIterator[Time]:
-        """Iterate ``hz`` times a second of this node's time; ends with the node."""
+    def rate(self, hz: float) -> Rate:
+        """Iterate ``hz`` times a second of this node's time; ends with the node.
+
+        Raises :class:`ValueError` for a rate that is not positive.
+        """
         return self._clock.rate(hz)
 
     def timer(

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Self
 
 from aioros1.events import ParamUpdate
-from aioros1.registration import Registration
 from aioros1.role import Role
 from aioros1.waiting import Waiters
 
@@ -32,7 +31,9 @@ class FollowedParam:
         self.subscribers: list[ParamSubscriber] = []
         self._node = node
         self._updates = 0
-        self.registration = Registration("parameter", key, self._register, self._unregister)
+        self.registration = node._roles.registration(
+            "parameter", key, self._register, self._unregister
+        )
 
     @property
     def is_used(self) -> bool:
@@ -59,19 +60,15 @@ class FollowedParam:
     async def _register(self) -> None:
         node = self._node
         updates = self._updates
-        value = await node.master.subscribe_param(self.name, node.uri)
+        value = await node._registrar.subscribe_param(self.name, node.uri)
         if updates == self._updates and value != self.value:
-            if self.registration.users:
+            if self.subscribers:
                 self.update(self.name, value)  # it changed while the master was away
             else:
                 self.value = value
-        node._roles.registered(self.registration)
 
     async def _unregister(self) -> None:
-        try:
-            await self._node.master.unsubscribe_param(self.name, self._node.uri)
-        finally:
-            self._node._roles.unregistered(self.registration)
+        await self._node._registrar.unsubscribe_param(self.name, self._node.uri)
 
 
 class ParamSubscriber(Role):

@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING, Any
 from aioros1.connection import ConnectionInfo
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
-from aioros1.registration import Registration
 from aioros1.turn import this_loops_turn
 from aioros1.waiting import Waiters
 from aioros1.wire.allocation import keep_memory
@@ -56,7 +55,9 @@ class Publication:
         self.is_congested = False
         """Whether messages wait in the queue of any connection."""
         self.has_subscribers = False
-        self.registration = Registration("publisher", topic, self._register, self._unregister)
+        self.registration = node._roles.registration(
+            "publisher", topic, self._register, self._unregister
+        )
 
     @property
     def is_used(self) -> bool:
@@ -234,14 +235,10 @@ class Publication:
 
     async def _register(self) -> None:
         node = self._node
-        await node.master.register_publisher(self.name, self.message_class._type, node.uri)
-        node._roles.registered(self.registration)
+        await node._registrar.register_publisher(self.name, self.message_class._type, node.uri)
 
     async def _unregister(self) -> None:
-        try:
-            await self._node.master.unregister_publisher(self.name, self._node.uri)
-        finally:
-            self._node._roles.unregistered(self.registration)
+        await self._node._registrar.unregister_publisher(self.name, self._node.uri)
 
 
 def _waiting(link: OutgoingLink, publisher: Publisher[Any]) -> int:

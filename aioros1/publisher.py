@@ -165,8 +165,8 @@ class Publisher(Role, Generic[M]):
     ) -> None:
         """Publish as soon as every connected subscriber has room in its queue.
 
-        Nothing is dropped then, whatever ``overflow`` says. It returns at once while
-        there is room, but lets other tasks run from time to time.
+        Nothing is dropped then, whatever ``overflow`` says. It goes out at once while
+        there is room, but from time to time other tasks run before.
 
         Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds;
         then, and when it is cancelled, the message was not published.
@@ -174,19 +174,21 @@ class Publisher(Role, Generic[M]):
         if not self._is_open:
             raise self._closed_error()
         publication = self._publication
+        turn = publication.turn
+        # Before it is published, and nothing after it: who is cancelled may send it again.
+        if turn.is_long or not publication.has_subscribers:
+            await asyncio.sleep(0)
+            self._check_open()
         if publication.is_congested and not publication.has_room(self):
             await self._wait_until(
                 lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
             )
-        turn = publication.turn
         if not turn.collects:
             turn.begin()
         frame = self._encode(msg, fields)
         if self._latches:
             self.latched = frame
         publication.send(frame, self)
-        if turn.is_long or not publication.has_subscribers:
-            await asyncio.sleep(0)
 
     async def drain(self, *, timeout: float | None = None) -> None:
         """Wait until the operating system has taken all that was published.

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError, MasterError, Md5MismatchError
-from aioros1.events import RoleRegistered, RoleUnregistered
 from aioros1.param_subscriber import FollowedParam, ParamSubscriber
 from aioros1.publication import Publication
 from aioros1.publisher import Publisher, PublisherOptions
+from aioros1.registration import Registration, Tell
 from aioros1.role import Role
 from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
 from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
@@ -24,11 +24,14 @@ from aioros1.subscription import Subscription
 
 if TYPE_CHECKING:
     from aioros1.node import Node
-    from aioros1.registration import Registration
 
 __all__ = ["Roles"]
 
 R = TypeVar("R", bound=Role)
+
+_AT_ONCE = 6
+"""Requests for registrations at a time. They have no limit of time, so that a master that
+answers none of them must leave connections for others, which ask whether it is there."""
 
 
 class Shared(Protocol):
@@ -58,8 +61,11 @@ class Roles:
         self.subscriptions: dict[str, Subscription] = {}
         self.providers: dict[str, ServiceProvider[Any, Any]] = {}
         self.params: dict[str, FollowedParam] = {}
-        self.registrations: dict[Registration, None] = {}  # sets that keep the order
-        self.open: dict[Role, None] = {}
+        self.registrations: dict[tuple[str, str], Registration] = {}
+        """By kind and name, those that have users, or of which the master is yet to hear."""
+        self.slots = asyncio.Semaphore(_AT_ONCE)
+        """What requests for registrations have to get hold of."""
+        self.open: dict[Role, None] = {}  # a set that keeps the order
         self._node = node
 
     @property
@@ -80,9 +86,13 @@ class Roles:
         topic = node.resolve_name(topic)
         message_class = node.store.resolve_msg(type)
         publication = self.publications.get(topic)
-        if publication is None:
+        if publication is not None and publication.publishers:
+            _check_same_type(
+                f"{node.name} publishes {topic}", publication.message_class, message_class
+            )
+        # One whose publishers are being closed may be used again, but for another type.
+        if publication is None or publication.message_class._md5sum != message_class._md5sum:
             publication = self.publications[topic] = Publication(node, topic, message_class)
-        _check_same_type(f"{node.name} publishes {topic}", publication.message_class, message_class)
         publisher: Publisher[Any] = Publisher(node, publication, message_class, options)
         # Subscribers may come as soon as the master knows, before we know that it does.
         publication.publishers.append(publisher)
@@ -90,6 +100,8 @@ class Roles:
             await publication.registration.acquire()
         except BaseException:
             publication.remove(publisher)
+            if not publication.publishers:
+                publication.abort()  # somebody may have connected already
             _discard_unused(self.publications, publication)
             raise
         return await self._opened(publisher)
@@ -130,8 +142,10 @@ class Roles:
         node._check_open()
         name = node.resolve_name(name)
         service_class = node.store.resolve_srv(type)
-        if name in self.providers:
-            raise ValueError(f"{node.name} provides service {name} already")
+        while (other := self.providers.get(name)) is not None:
+            if other.is_open:
+                raise ValueError(f"{node.name} provides service {name} already")
+            await other.close()  # which goes on, when it was cancelled before
         provider: ServiceProvider[Any, Any] = ServiceProvider(
             node, name, service_class, handler, options
         )
@@ -139,7 +153,9 @@ class Roles:
         try:
             await provider.registration.acquire()
         except BaseException:
-            del self.providers[name]
+            if self.providers.get(name) is provider:
+                del self.providers[name]
+            provider._abort()  # somebody may have connected already
             raise
         return await self._opened(provider)
 
@@ -180,17 +196,32 @@ class Roles:
 
     async def close(self, timeout: float) -> None:
         """Close all, at the same time, within ``timeout`` seconds."""
-        roles = tuple(self.open)
-        closing = asyncio.gather(*(role.close() for role in roles), return_exceptions=True)
         try:
             async with asyncio.timeout(timeout):
-                results = await closing
+                # What is being opened, or could not be taken back so far, has no open role.
+                await asyncio.gather(self._close_roles(), self._end(only_unfinished=True))
+                await self._end()
         except TimeoutError:
             self._node.log.warning("closed without having told everybody in %s s", timeout)
-            return
+
+    async def _close_roles(self) -> None:
+        roles = tuple(self.open)
+        results = await asyncio.gather(*(role.close() for role in roles), return_exceptions=True)
         for role, result in zip(roles, results, strict=True):
             if isinstance(result, Exception):
                 self._node._report(result, f"closing {role}")
+
+    async def _end(self, *, only_unfinished: bool = False) -> None:
+        ending = [
+            registration.end()
+            for registration in self.registrations.values()
+            if not (only_unfinished and registration.is_established)
+        ]
+        for error in await asyncio.gather(*ending, return_exceptions=True):
+            if isinstance(error, BaseException) and not isinstance(
+                error, MasterError | ClosedError
+            ):
+                raise error
 
     def abort(self) -> None:
         """Drop all connections at once, and let everybody who waits for a role know."""
@@ -249,14 +280,14 @@ class Roles:
 
     # at the master
 
-    def registered(self, registration: Registration) -> None:
-        self.registrations[registration] = None
-        self._node._emit(RoleRegistered(registration.kind, registration.name))
-
-    def unregistered(self, registration: Registration) -> None:
-        if registration in self.registrations:
-            del self.registrations[registration]
-            self._node._emit(RoleUnregistered(registration.kind, registration.name))
+    def registration(self, kind: str, name: str, register: Tell, unregister: Tell) -> Registration:
+        """The entry of that name at the master; one for all that ever use it, so that what
+        the master is told of it keeps its order."""
+        registration = self.registrations.get((kind, name))
+        if registration is None:
+            return Registration(self._node, kind, name, register, unregister)
+        registration.adopt(register, unregister)
+        return registration
 
     async def _release(self, registration: Registration) -> None:
         try:
@@ -272,6 +303,12 @@ class Roles:
         for followed in concerned:
             followed.update(key, value)
         return bool(concerned)
+
+    def param_in_doubt(self, key: str) -> None:
+        """It may have changed: those whom it concerns have to ask, with the next heartbeat."""
+        for followed in self.params.values():
+            if followed.concerns(key):
+                followed.registration.forget()
 
 
 def _check_same_type(what: str, known: Any, other: Any) -> None:

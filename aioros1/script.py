@@ -59,6 +59,9 @@ async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T 
             await asyncio.wait({task})
         except asyncio.CancelledError:
             task.cancel()
+            # While the node is open, for it may be needed to clean up.
+            with contextlib.suppress(Exception, asyncio.CancelledError):
+                await task
             raise
         finally:
             signals.release()

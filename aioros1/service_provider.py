@@ -13,7 +13,6 @@ from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.fields import message_from
 from aioros1.net.service_link import ServiceLink
 from aioros1.net.tcpros import Stream, connection_info, take_over
-from aioros1.registration import Registration
 from aioros1.role import Role
 from aioros1.serving import Serving
 from aioros1.waiting import Waiters
@@ -117,7 +116,9 @@ class ServiceProvider(Role, Generic[Q, A]):
         super().__init__(node, name)
         self.options = options
         self.service_class = service_class
-        self.registration = Registration("service", name, self._register, self._unregister)
+        self.registration = node._roles.registration(
+            "service", name, self._register, self._unregister
+        )
         self.handler = handler
         self._calls: deque[ServiceCall[Q, A]] = deque()
         self._unanswered: set[ServiceCall[Q, A]] = set()
@@ -226,28 +227,27 @@ class ServiceProvider(Role, Generic[Q, A]):
 
     async def _register(self) -> None:
         node = self._node
-        await node.master.register_service(self.name, self.uri, node.uri)
-        node._roles.registered(self.registration)
+        await node._registrar.register_service(self.name, self.uri, node.uri)
 
     async def _unregister(self) -> None:
-        try:
-            await self._node.master.unregister_service(self.name, self.uri)
-        finally:
-            self._node._roles.unregistered(self.registration)
+        await self._node._registrar.unregister_service(self.name, self.uri)
 
     def _abort(self) -> None:
         super()._abort()
-        self._arrived.wake()
+        self._end_iteration()
         for link in self._connections:
             link.abort()
 
     async def _close(self) -> None:
         """Let calls that are being worked on be answered, and no further ones begin."""
+        self._end_iteration()
+        await self._node._roles.close_provider(self)
+
+    def _end_iteration(self) -> None:
         self._calls.clear()
         self._arrived.wake()
         for call in self._unanswered:
             call._close(self._closed_error())
-        await self._node._roles.close_provider(self)
 
     async def close_connections(self, timeout: float) -> None:
         """Close connections as they become idle, and after ``timeout`` seconds the rest."""

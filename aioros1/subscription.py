@@ -19,7 +19,6 @@ from aioros1.net.backoff import Backoff
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.peer import NodeProxy
-from aioros1.registration import Registration
 from aioros1.waiting import Waiters
 from aioros1.wire.handshake import TopicClient, TopicOffer
 
@@ -47,7 +46,9 @@ class Subscription:
         self._followers: dict[str, _Follower] = {}
         self._links: tuple[IncomingLink, ...] = ()
         self._updates = 0
-        self.registration = Registration("subscriber", topic, self._register, self._unregister)
+        self.registration = node._roles.registration(
+            "subscriber", topic, self._register, self._unregister
+        )
 
     @property
     def type(self) -> str:
@@ -157,17 +158,13 @@ class Subscription:
         updates = self._updates
         for follower in self._followers.values():
             follower.forgotten()
-        uris = await node.master.register_subscriber(self.name, self.type, node.uri)
+        uris = await node._registrar.register_subscriber(self.name, self.type, node.uri)
         # An announcement that overtook this answer is newer than it.
         if updates == self._updates:
             self.update(uris)
-        node._roles.registered(self.registration)
 
     async def _unregister(self) -> None:
-        try:
-            await self._node.master.unregister_subscriber(self.name, self._node.uri)
-        finally:
-            self._node._roles.unregistered(self.registration)
+        await self._node._registrar.unregister_subscriber(self.name, self._node.uri)
 
 
 class _Follower:

@@ -49,8 +49,10 @@ class Supervisor:
             await asyncio.shield(begun)
         except asyncio.CancelledError:
             self.end("its start was cancelled")
-            self._task.cancel()
-            begun.cancel()
+            # What has begun ends as it always does: it may have told others already.
+            if not begun.done():
+                begun.cancel()
+                self._task.cancel()
             await asyncio.wait({self._task})
             raise
 

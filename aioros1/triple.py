@@ -30,6 +30,7 @@ async def call_triple(
     *,
     bare: bool = False,
     read: Callable[[Any], T] = as_it_is,
+    timeout: float | None = None,
 ) -> T:
     """Call a method and return what ``read`` makes of the value of its answer.
 
@@ -40,7 +41,7 @@ async def call_triple(
     from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
 
     try:
-        answer = await client.call(uri, method, *params)
+        answer = await client.call(uri, method, *params, timeout=timeout)
     except XmlRpcFault as fault:
         raise refused(fault.code, fault.text) from fault
     except XmlRpcError as error:

@@ -176,6 +176,13 @@ class Master:
         if self._started:
             raise RuntimeError("a master is started once")
         self._started = True
+        try:
+            await self._start()
+        except BaseException:
+            await self.close()
+            raise
+
+    async def _start(self) -> None:
         host, bind = self._host, self._bind
         if host is not None and is_wildcard(host):  # where to listen, and nothing to tell others
             host, bind = None, bind or host
@@ -184,10 +191,10 @@ class Master:
         bind = bind or bind_address_for(advertised)
         if self._rosout:
             await self._check_that_rosout_is_allowed(advertised)
-        await self._server.start(bind, self._port)
         self._stack.push_async_callback(self._client.close)
         self._stack.push_async_callback(self._notifier.close)
         self._stack.push_async_callback(self._server.close)
+        await self._server.start(bind, self._port)
         self._uri = self._api.uri = f"http://{uri_host(advertised)}:{self._server.port}/"
         if self._rosout:
             # Imported here: it is a node, and those who only want a master have none.

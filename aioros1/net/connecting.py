@@ -57,7 +57,8 @@ async def _race(
         while waiting or running:
             if waiting:
                 attempt = _attempt(factory, address := waiting.pop(), port)
-                running.add(asyncio.create_task(attempt, name=f"connect {address[1]}:{port}"))
+                task = asyncio.create_task(attempt, name=f"connect {address[1]}:{port}")
+                running.add(task)
             done, _ = await asyncio.wait(
                 running,
                 timeout=STAGGER if waiting else None,
@@ -71,13 +72,18 @@ async def _race(
                     failures.append(error)
     finally:
         for task in running:
+            # Each by itself: the waiting below may be cancelled.
+            task.add_done_callback(_abort)
             task.cancel()
         if running:
             await asyncio.wait(running)
-        for task in running:
-            if not task.cancelled() and task.exception() is None:
-                task.result()[0].abort()
     raise _failure(host, failures)
+
+
+def _abort(task: asyncio.Task[tuple[asyncio.Transport, P]]) -> None:
+    """Nobody wants the connection any more."""
+    if not task.cancelled() and task.exception() is None:
+        task.result()[0].abort()
 
 
 def _failure(host: str, failures: list[OSError]) -> OSError:

@@ -184,6 +184,17 @@ def bind_sockets(host: str = "0.0.0.0", port: int = 0) -> list[socket.socket]:
     return [sock]
 
 
+def probe(sock: socket.socket, keepalive: tuple[int, int, int]) -> None:
+    """Have the system ask whether the other side of a TCP connection is still there: after so
+    many seconds idle, in intervals of so many seconds, so often."""
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+    names = ("TCP_KEEPIDLE", "TCP_KEEPINTVL", "TCP_KEEPCNT")
+    for name, value in zip(names, keepalive, strict=True):
+        option = getattr(socket, name, None)  # not every system has all three
+        if option is not None:
+            sock.setsockopt(socket.IPPROTO_TCP, option, value)
+
+
 def _literal(host: str) -> tuple[socket.AddressFamily, str] | None:
     if host[:1] == "[" and host[-1:] == "]":
         host = host[1:-1]

@@ -13,7 +13,7 @@ from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
 from aioros1.net.connecting import connect
-from aioros1.net.hosts import uri_host
+from aioros1.net.hosts import probe, uri_host
 from aioros1.wire.http import AnswerReader, HttpError
 
 __all__ = ["HttpClient", "Server", "server_at"]
@@ -24,6 +24,9 @@ enough that a server with a thread per connection is not flooded."""
 
 IDLE = 15.0
 """Seconds after which an idle connection is closed, or up to twice that."""
+
+# Seconds idle, seconds between probes, probes: half a minute in all.
+_KEEPALIVE = (15, 5, 3)
 
 # What is written in one piece. More is written as fast as the server takes it, so that it
 # is not all copied into the buffer of the transport.
@@ -147,6 +150,7 @@ class HttpClient:
         # cancelled at that moment, and close() would wait for it.
         if not connection.is_closing:
             self._open.add(connection)
+            connection.keep_alive()
         return connection
 
     def _sweep(self) -> None:
@@ -227,6 +231,11 @@ class _Connection(asyncio.Protocol):
     def is_closing(self) -> bool:
         """Whether it is closed, or about to be."""
         return self._transport.is_closing()
+
+    def keep_alive(self) -> None:
+        """Have the system ask now and then whether the server's machine is still there: a
+        request may wait for its answer without a limit of time."""
+        probe(self._transport.get_extra_info("socket"), _KEEPALIVE)
 
     async def exchange(self, head: bytes, body: bytes, answer: AnswerReader) -> None:
         """Send a request, and wait until ``answer`` is complete.

@@ -18,7 +18,7 @@ from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
-from aioros1.net.hosts import bind_sockets, resolve
+from aioros1.net.hosts import bind_sockets, probe, resolve
 from aioros1.options import Limits, Timeouts
 
 __all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
@@ -230,7 +230,9 @@ class Listener:
         sockets = bind_sockets(host, port)
         self.port = sockets[0].getsockname()[1]
         # One socket: bind_sockets gives several only for a name with several addresses.
-        self._servers.append(await asyncio.start_server(self._accepted, sock=sockets[0]))
+        await self._listen(
+            await asyncio.start_server(self._accepted, sock=sockets[0], start_serving=False)
+        )
 
     async def listen_unix(self, address: str) -> None:
         """Listen on a Unix socket as well. Raises :class:`OSError`."""
@@ -239,10 +241,17 @@ class Listener:
             sock.setblocking(False)
             sock.bind(address)
             sock.listen(512)
-            self._servers.append(await asyncio.start_unix_server(self._accepted, sock=sock))
+            server = await asyncio.start_unix_server(self._accepted, sock=sock, start_serving=False)
         except BaseException:
             sock.close()
             raise
+        await self._listen(server)
+
+    async def _listen(self, server: asyncio.Server) -> None:
+        # Not in one with making it: asyncio lets others run once it serves, and if that is
+        # cancelled nobody has the server and could close it.
+        self._servers.append(server)
+        await server.start_serving()
 
     def new_protocol(self) -> asyncio.StreamReaderProtocol:
         """What a connection that needs no socket is to be made with, on our side."""
@@ -276,21 +285,14 @@ class Listener:
 
 def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
     idle = min(max(timeouts.keepalive, 1), _LONGEST)
-    given_up = max(idle + _PROBES * idle / _PARTS, timeouts.stall)
-    options = {
-        "TCP_KEEPIDLE": idle,
-        "TCP_KEEPINTVL": max(idle / _PARTS, 1),
-        "TCP_KEEPCNT": _PROBES,
-        # While there is data on its way nothing is probed: it is sent again and again, for
-        # a quarter of an hour. In milliseconds; where it is set, probes end with it too.
-        "TCP_USER_TIMEOUT": 1000 * min(given_up, 3 * _LONGEST),
-    }
-    for name, value in options.items():
-        option = getattr(socket, name, None)  # not every system has all of them
-        if option is not None:
-            sock.setsockopt(socket.IPPROTO_TCP, option, round(value))
+    probe(sock, (round(idle), round(max(idle / _PARTS, 1)), _PROBES))
+    # While there is data on its way nothing is probed: it is sent again and again, for a
+    # quarter of an hour. In milliseconds; where it is set, probes end with it too.
+    option = getattr(socket, "TCP_USER_TIMEOUT", None)  # Linux has it
+    if option is not None:
+        given_up = max(idle + _PROBES * idle / _PARTS, timeouts.stall)
+        sock.setsockopt(socket.IPPROTO_TCP, option, round(1000 * min(given_up, 3 * _LONGEST)))
 
 
 def _address_text(address: object) -> str:

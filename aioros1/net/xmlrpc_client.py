@@ -7,6 +7,7 @@ path, ``/RPC2`` when the URI has none; and patience with answers that are no XML
 from __future__ import annotations
 
 import asyncio
+import math
 from typing import Any
 
 from aioros1.net.http_client import HttpClient, server_at
@@ -30,7 +31,8 @@ class XmlRpcClient:
     async def call(self, uri: str, method: str, *params: Any, timeout: float | None = None) -> Any:
         """The answer of ``method(*params)`` at ``uri``, whatever it is.
 
-        ``timeout`` is for the whole call, in seconds; ``Timeouts.xmlrpc`` by default. Raises
+        ``timeout`` is for the whole call, in seconds; ``Timeouts.xmlrpc`` by default, and
+        infinite for none. Raises
 
         - :class:`TimeoutError` when it is over,
         - :class:`ConnectionError` when nobody can be reached at ``uri``, and
@@ -52,7 +54,7 @@ class XmlRpcClient:
             ) from None
         seconds = self._timeouts.xmlrpc if timeout is None else timeout
         try:
-            async with asyncio.timeout(seconds) as limit:
+            async with asyncio.timeout(None if seconds == math.inf else seconds) as limit:
                 self._calls.add(limit)
                 try:
                     answer = await self._http.post(server, body)

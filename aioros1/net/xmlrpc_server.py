@@ -141,11 +141,17 @@ class XmlRpcServer:
 
         try:
             for sock in sockets:
-                self._listeners.append(await loop.create_server(connection, sock=sock, backlog=512))
+                # Not in one with serving, during which asyncio lets others run: if that is
+                # cancelled, nobody has the server and could close it.
+                listener = await loop.create_server(
+                    connection, sock=sock, backlog=512, start_serving=False
+                )
+                self._listeners.append(listener)
+                await listener.start_serving()
         except BaseException:
+            await self.close()
             for sock in sockets:
                 sock.close()
-            await self.close()
             raise
 
     async def close(self, *, timeout: float = 1.0) -> None:

@@ -1,0 +1,144 @@
+"""A master that obeys registrations late, as one that serves each connection in a thread may."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+
+import aioros1
+from aioros1.master.api import MasterApi
+from aioros1.msg.std_msgs import String
+
+
+class Gate:
+    """Holds ``registerPublisher`` back before the master obeys it, once it is closed."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.opened = asyncio.Event()
+        self.opened.set()
+        self.waiting = 0
+        methods = MasterApi.methods
+
+        def slow(api: MasterApi):
+            table = dict(methods(api))
+            register = table["registerPublisher"]
+
+            async def late(caller_id, topic, type, uri):
+                self.waiting += 1
+                await self.opened.wait()
+                return register(caller_id, topic, type, uri)
+
+            table["registerPublisher"] = late
+            return table
+
+        monkeypatch.setattr(MasterApi, "methods", slow)
+
+
+@pytest.fixture
+def gate(monkeypatch):
+    return Gate(monkeypatch)
+
+
+async def publishers(node):
+    return (await node.master.get_system_state()).publishers
+
+
+async def until(holds):
+    async with asyncio.timeout(5):
+        while not await holds():
+            await asyncio.sleep(0.001)
+
+
+async def opened(node, type=String):
+    return await node.advertise("late", type)
+
+
+@pytest.mark.parametrize("times", [1, 2])
+@pytest.mark.parametrize("how", ["cancelled", "out of time"])
+async def test_a_late_registration_leaves_no_ghost(gate, make_node, how, times):
+    timeouts = aioros1.Timeouts(xmlrpc=0.1 if how == "out of time" else 5)
+    node = await make_node("node", timeouts=timeouts, heartbeat=None)
+    gate.opened.clear()
+    opening = asyncio.create_task(opened(node))
+
+    async def it_waits():
+        return gate.waiting == 1
+
+    await until(it_waits)
+    if how == "cancelled":
+        for _ in range(times):
+            opening.cancel()
+            await asyncio.sleep(0)
+            await asyncio.sleep(0)
+        gate.opened.set()
+        with pytest.raises(asyncio.CancelledError):
+            await opening
+    else:
+        with pytest.raises(aioros1.MasterUnreachable, match="no answer of the master"):
+            await opening
+        for _ in range(times - 1):
+            with pytest.raises(aioros1.MasterUnreachable):
+                await opened(node)
+        assert gate.waiting == 1, "the next request overtook the first"
+        gate.opened.set()
+
+    async def nothing_is_on_its_way():
+        return not node._roles.registrations
+
+    await until(nothing_is_on_its_way)
+    assert "/late" not in await publishers(node)
+
+
+async def test_the_next_role_of_the_name_waits_for_the_last_ones_request(gate, make_node):
+    node = await make_node("node", heartbeat=None)
+    gate.opened.clear()
+    first = asyncio.create_task(opened(node))
+    while not gate.waiting:
+        await asyncio.sleep(0.001)
+    for _ in range(2):  # the second time it does not wait for its taking back
+        first.cancel()
+        await asyncio.sleep(0)
+    with pytest.raises(asyncio.CancelledError):
+        await first
+    second = asyncio.create_task(opened(node, "std_msgs/Int32"))
+    await asyncio.sleep(0.01)
+    assert gate.waiting == 1
+    gate.opened.set()
+    await second
+    assert (await publishers(node))["/late"] == ["/node"]
+    assert ("/late", "std_msgs/Int32") in await node.master.get_topic_types()
+
+
+async def test_closing_takes_back_what_is_on_its_way(gate, make_node):
+    node, other = await make_node("node"), await make_node("other")
+    gate.opened.clear()
+    opening = asyncio.create_task(opened(node))
+    while not gate.waiting:
+        await asyncio.sleep(0.001)
+    closing = asyncio.create_task(node.close())
+    await asyncio.sleep(0.01)
+    gate.opened.set()
+    await closing
+    with pytest.raises(aioros1.ClosedError):
+        await opening
+    assert "/late" not in await publishers(other)
+
+
+async def test_what_could_not_be_taken_back_is_with_a_later_heartbeat(make_node, monkeypatch):
+    node = await make_node("node", heartbeat=0.01)
+    role = await opened(node)
+    tell = node._registrar.unregister_publisher
+
+    async def nobody(*args):
+        raise aioros1.MasterUnreachable("lost on the way")
+
+    monkeypatch.setattr(node._registrar, "unregister_publisher", nobody)
+    await role.close()
+    assert "/late" in await publishers(node)
+    monkeypatch.setattr(node._registrar, "unregister_publisher", tell)
+
+    async def it_is_gone():
+        return "/late" not in await publishers(node)
+
+    await until(it_is_gone)
