@@ -56,7 +56,7 @@ def main() -> None:
 
 async def measure(scenario: Scenario, times: int) -> dict[str, Any]:
     """Run it, and compare what the process holds afterwards with what it held before."""
-    await scenario.run(scenario.quick)
+    await scenario.run(times if scenario.is_size else scenario.quick)
     before = await Footprint.take()
     start = time.monotonic()
     try:

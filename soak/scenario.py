@@ -39,3 +39,7 @@ class Scenario:
 
     full: int
     """As often as the table asks for."""
+
+    is_size: bool = False
+    """Whether ``times`` is how much there is at once, and not how often something happens: the
+    most memory that is needed is no leak."""

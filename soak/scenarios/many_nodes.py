@@ -117,4 +117,5 @@ SCENARIO = Scenario(
     quick=10,
     short=50,
     full=200,
+    is_size=True,
 )
