@@ -51,6 +51,7 @@ _MODULES = {
     "idl": ("MessageStore", "load_action", "load_msg", "load_srv"),
     "idl.importer": ("install_importer", "uninstall_importer"),
     "master": ("Master",),
+    "merging": ("merge",),
     "node": ("Node",),
     "options": ("Limits", "Timeouts"),
     "param_subscriber": ("ParamSubscriber",),

@@ -35,6 +35,7 @@ from aioros1.idl import load_srv as load_srv
 from aioros1.idl.importer import install_importer as install_importer
 from aioros1.idl.importer import uninstall_importer as uninstall_importer
 from aioros1.master import Master as Master
+from aioros1.merging import merge as merge
 from aioros1.node import Node as Node
 from aioros1.options import Limits as Limits
 from aioros1.options import Timeouts as Timeouts

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from aioros1.errors import ClosedError
 from aioros1.fields import message_from
 from aioros1.idl import Message
 from aioros1.net.topic_links import JOIN, Frame
@@ -16,10 +17,12 @@ from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
 
 if TYPE_CHECKING:
+    from aioros1.clock import Timer
     from aioros1.connection import ConnectionInfo
     from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.node import Node
     from aioros1.publication import Publication
+    from aioros1.time import Duration, Time
 
 __all__ = ["Publisher", "PublisherOptions"]
 
@@ -78,6 +81,7 @@ class Publisher(Role, Generic[M]):
         self._frame = _frame_encoder(message_class)
         self._is_numbered = message_class._has_header
         self._seq = 0
+        self._timers: list[Timer] = []
 
     @property
     def type(self) -> str:
@@ -190,6 +194,51 @@ class Publisher(Role, Generic[M]):
             self.latched = frame
         publication.send(frame, self)
 
+    def publish_every(
+        self,
+        period: float | Duration,
+        msg: M | GenpyMessage | Mapping[str, Any] | Callable[[Time], object] | None = None,
+        /,
+        **fields: Any,
+    ) -> Timer:
+        """Publish again and again, every ``period`` seconds of the node's time, first after one.
+
+        ``msg`` is what :meth:`publish` takes, and published as it is at that moment; or a
+        function, which may be a coroutine function, that is called with the time each time
+        and gives the message, or None for none. It ends with the publisher, or with
+        :meth:`Timer.cancel` of what is returned. With ``overflow="block"`` a message waits
+        for room as :meth:`send` does, and the ticks that it misses are skipped. An exception
+        is treated as one in a timer's callback, see ``on_error`` of :class:`Node`.
+
+        Raises :class:`ValueError` for a period that is not positive,
+        :class:`~aioros1.SerializationError` for a message that cannot be published, and
+        :class:`~aioros1.ClosedError`.
+        """
+        self._check_open()
+        if not callable(msg):
+            # What is wrong is told here, and not later to nobody.
+            self._frame(message_from(self.message_class, msg, fields, "msg"))
+
+        async def publish(now: Time) -> None:
+            message: Any = msg
+            if callable(msg):
+                message = msg(now)
+                if isinstance(message, Awaitable):
+                    message = await message
+                if message is None:
+                    return
+            try:
+                if self._blocks:
+                    await self.send(message, **fields)
+                else:
+                    self.publish(message, **fields)
+            except ClosedError:
+                pass  # while it waited
+
+        timer = self._node.timer(period, publish)
+        self._timers.append(timer)
+        return timer
+
     async def drain(self, *, timeout: float | None = None) -> None:
         """Wait until the operating system has taken all that was published.
 
@@ -242,6 +291,8 @@ class Publisher(Role, Generic[M]):
         self._publication.changed.wake()
 
     async def _close(self) -> None:
+        for timer in self._timers:
+            timer.cancel()
         await self._node._roles.close_publisher(self, self._publication)
 
 

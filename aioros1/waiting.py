@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Self
 
-__all__ = ["Waiters", "deadline"]
+__all__ = ["Waiters", "deadline", "wait_for_any"]
 
 
 class Waiters:
@@ -72,6 +72,18 @@ class Waiters:
         async with deadline(timeout, what):
             while not predicate():
                 await self.wait()
+
+
+async def wait_for_any(waiters: Sequence[Waiters]) -> None:
+    """Wait for the next :meth:`Waiters.wake` of any of them."""
+    future = asyncio.get_running_loop().create_future()
+    for each in waiters:
+        each._futures.add(future)
+    try:
+        await future
+    finally:
+        for each in waiters:
+            each._futures.discard(future)
 
 
 def _end(future: asyncio.Future[None]) -> None:

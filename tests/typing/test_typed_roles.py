@@ -9,7 +9,7 @@ from typing import Any, TypeAlias, assert_type
 
 import aioros1
 from aioros1 import MessageEvent, Publisher, ServiceCaller, ServiceProvider, Subscriber
-from aioros1.msg.std_msgs import String
+from aioros1.msg.std_msgs import Int32, String
 from aioros1.srv.std_srvs import SetBool
 
 MakeNode: TypeAlias = Callable[..., Awaitable[aioros1.Node]]
@@ -140,3 +140,17 @@ async def genpys_classes_are_accepted(node: aioros1.Node, pub: Publisher[String]
     assert_type(await node.advertise("chatter", GenpyString), Publisher[Any])
     assert_type(await node.subscribe("chatter", GenpyString), Subscriber[Any])
     assert_type(await node.service_caller("flip", GenpySetBool), ServiceCaller[Any, Any])
+
+
+async def test_merged_topics(make_node: MakeNode) -> None:
+    node = await make_node()
+    async with (
+        node.advertise("chatter", String, latch=True) as pub,
+        node.subscribe("chatter", String) as one,
+        node.subscribe("number", Int32) as other,
+    ):
+        pub.publish(data="1")
+        merged = aioros1.merge(one, other)
+        topic, message = await asyncio.wait_for(anext(merged), 5)
+        assert_type(topic, str)
+        assert_type(message, String | Int32)
