@@ -22,6 +22,7 @@ from aioros1.net.allow import AllowList, parse_address
 from aioros1.net.hosts import (
     advertised_host,
     bind_address_for,
+    every_interface,
     is_wildcard,
     local_address_facing,
     resolve,
@@ -187,8 +188,11 @@ class Master:
         if host is not None and is_wildcard(host):  # where to listen, and nothing to tell others
             host, bind = None, bind or host
         told = bind if bind and not is_wildcard(bind) else None
-        advertised = host or advertised_host(bound=told)
-        bind = bind or bind_address_for(advertised)
+        host = host or advertised_host(bound=told)
+        # A network without a gateway, of a robot perhaps, has nothing to tell. Those who know
+        # the way to this machine find the master all the same, and need not be told.
+        advertised = host or "localhost"
+        bind = bind or (bind_address_for(host) if host else every_interface(advertised))
         if self._rosout:
             await self._check_that_rosout_is_allowed(advertised)
         self._stack.push_async_callback(self._client.close)

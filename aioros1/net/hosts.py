@@ -79,19 +79,21 @@ def local_address() -> str | None:
     return None
 
 
-def advertised_host(environ: Mapping[str, str] | None = None, *, bound: str | None = None) -> str:
-    """The host a server should tell others.
+def advertised_host(
+    environ: Mapping[str, str] | None = None, *, bound: str | None = None
+) -> str | None:
+    """The host a server should tell others; None where there is nothing to tell.
 
     ``ROS_HOSTNAME``, then ``ROS_IP``, as for every program of ROS 1; else ``bound``, the one
-    address that it listens on; else the address on the default route, else ``localhost``.
-    rosmaster tells the machine's host name
-    instead, which other machines often cannot look up, and looking it up takes a thread.
+    address that it listens on; else the address on the default route. rosmaster tells the
+    machine's host name instead, which other machines often cannot look up, and looking it up
+    takes a thread.
     """
     environ = os.environ if environ is None else environ
     for variable in ("ROS_HOSTNAME", "ROS_IP"):
         if host := environ.get(variable, "").strip():
             return host
-    return bound or local_address() or "localhost"
+    return bound or local_address()
 
 
 def bind_address_for(host: str) -> str:

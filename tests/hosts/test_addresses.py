@@ -187,3 +187,14 @@ def test_bound_to_one_interface_a_node_is_not_there_on_the_other(net: Network):
     everywhere = start(two, uri, "everywhere")("addresses")["tcpros"][1]
     b("reach", two.address_on(1), everywhere)
     b("reach", two.address_on(2), everywhere)
+
+
+def test_a_master_on_a_network_without_a_gateway(net: Network):
+    """As robots have it: there is nothing to tell, and others know where it is."""
+    one, two = net.host("one"), net.host("two")
+    one.ip("route", "del", "default")
+    a = one.start()
+    assert a("master") == "http://localhost:11311/"
+    b = start(two, f"http://{one.address}:11311/")
+    a("start", "one", master_uri=f"http://{one.address}:11311/", **QUIET)
+    topic_flows(b, a)
