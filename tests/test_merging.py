@@ -27,13 +27,17 @@ async def until(condition):
             await asyncio.sleep(0.001)
 
 
+async def has_queued(sub, number):
+    await until(lambda: sub.queued == number)
+
+
 async def test_messages_come_in_the_order_in_which_they_arrived(topics):
     (a, b), subs = topics
     for number in range(3):
         a.publish(data=str(number))
-        await until(lambda: subs[0].queued == number + 1)
+        await has_queued(subs[0], number + 1)
         b.publish(data=number)
-        await until(lambda: subs[1].queued == number + 1)
+        await has_queued(subs[1], number + 1)
     got = []
     async for topic, message in aioros1.merge(*subs):
         got.append((topic, message.data))

@@ -104,7 +104,7 @@ def test_advertised_host_without_a_network(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr("aioros1.net.hosts.local_address_facing", no_route)
     assert local_address() is None
-    assert advertised_host({}) == "localhost"
+    assert advertised_host({}) is None
 
 
 @pytest.mark.parametrize(
