@@ -1,0 +1,344 @@
+"""A node for programs without an event loop: it lives in one of its own, in a thread."""
+
+from __future__ import annotations
+
+import asyncio
+import atexit
+import contextlib
+import threading
+from collections.abc import AsyncIterable, AsyncIterator, Awaitable, Callable, Iterator
+from concurrent.futures import Future
+from types import TracebackType
+from typing import Any, ParamSpec, Self, TypeVar, overload
+
+from aioros1.errors import ClosedError
+from aioros1.node import Node
+from aioros1.waiting import deadline
+
+__all__ = ["NodeThread"]
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+_GRACE = 1.0
+"""Seconds that what still runs has to return once the node is closed, before it is cancelled."""
+
+_LOOK = 0.5
+"""Seconds after which a wait in the main thread looks whether there was a Ctrl-C: Python
+misses it just before it begins to wait for a lock, and on Windows while it does."""
+
+_END: Any = object()
+
+
+class NodeThread:
+    """A node with an event loop and a thread of its own, for programs that block.
+
+    ::
+
+        with NodeThread("gui") as ros:
+            pub = ros.run(ros.node.advertise("chatter", String))
+            ros.call(pub.publish, data="hello")
+
+    The options are those of :class:`~aioros1.Node`; ``loop_factory`` is that of
+    :class:`asyncio.Runner`, as ``uvloop.new_event_loop``.
+
+    The methods of this class may be called in any thread, at the same time too. The node
+    and its roles belong to their loop: make awaitables of them wherever you like and hand
+    these to :meth:`run` or :meth:`submit`, and use :meth:`call` for their plain functions.
+
+    When the node is closed, by whomever, iterations end, and who waits or calls gets
+    :class:`~aioros1.ClosedError`. A coroutine that does not end by itself then is
+    cancelled a second later. A program that never closes it does so on its way out.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        loop_factory: Callable[[], asyncio.AbstractEventLoop] | None = None,
+        **options: Any,
+    ) -> None:
+        self.node = Node(name, **options)
+        """The node."""
+        self._loop_factory = loop_factory
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._thread: threading.Thread | None = None
+        self._started: Future[None] = Future()
+        # Whether the loop takes more work. Who hands some to it, and who says that it takes
+        # no more, holds the lock: so whatever was taken is also begun, and comes to an end.
+        self._lock = threading.Lock()
+        self._is_open = False
+        self._error: BaseException | None = None
+
+    # life
+
+    def start(self) -> Self:
+        """Start the thread and the node; ``with`` does this.
+
+        Raises what :meth:`Node.start` does, and :class:`RuntimeError` when it was started
+        before.
+        """
+        with self._lock:
+            if self._thread is not None:
+                raise RuntimeError(f"node {self.node.name} was started before; make a new one")
+            # A daemon, so that a program which forgets it can end; close() is called then.
+            thread = threading.Thread(
+                target=self._run_loop, name=f"node {self.node.name}", daemon=True
+            )
+            thread.start()
+            self._thread = thread
+            atexit.register(self.close)
+        try:
+            _result(self._started)
+        except BaseException:  # KeyboardInterrupt too
+            self.close()
+            raise
+        return self
+
+    def close(self, timeout: float | None = None) -> None:
+        """Close the node, and return when its thread has ended.
+
+        May be called any number of times, in any thread. ``timeout`` is as for
+        :meth:`Node.close`. Called in the node's own thread it only begins to close.
+        """
+        if self._thread is None:
+            return
+        self._started.exception()  # waits until it has started, or failed to
+        with self._lock:
+            if self._is_open:
+                self._schedule(self.node.close(timeout), None, Future())
+                self._is_open = False
+        if not self._is_inside():
+            self._thread.join()
+            atexit.unregister(self.close)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it can be used."""
+        return self._is_open
+
+    def __enter__(self) -> Self:
+        return self.start()
+
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+        # As `async with node` does: what closed the node is raised where the node is used,
+        # in place of the ClosedError that came of it.
+        if self._error is not None and (exc is None or isinstance(exc, ClosedError)):
+            raise self._error
+
+    # use
+
+    def run(self, awaitable: Awaitable[T], timeout: float | None = None) -> T:
+        """Await something in the node's loop, and return what it gives or raise its error.
+
+        It is cancelled after ``timeout`` seconds, and :class:`TimeoutError` raised; or when
+        this wait is interrupted, as by Ctrl-C. Raises :class:`~aioros1.ClosedError`, and
+        :class:`RuntimeError` in the node's own thread, which would wait for itself.
+        """
+        return self._wait(awaitable, timeout)
+
+    @overload
+    def call(
+        self, function: Callable[P, Awaitable[T]], /, *args: P.args, **kwargs: P.kwargs
+    ) -> T: ...
+    @overload
+    def call(self, function: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T: ...
+    def call(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Any:
+        """Call a function, or a coroutine function, in the node's thread; what it returns.
+
+        Raises as :meth:`run` does.
+        """
+        return self._wait(_call(function, args, kwargs))
+
+    def submit(self, awaitable: Awaitable[T]) -> Future[T]:
+        """Await something in the node's loop without waiting for it here.
+
+        The future may be cancelled, and then what is awaited is. Raises
+        :class:`~aioros1.ClosedError`.
+        """
+        future: Future[T] = Future()
+        self._submit(awaitable, None, future)
+        return future
+
+    def iterate(self, source: AsyncIterable[T]) -> Iterator[T]:
+        """Iterate here over what is iterated asynchronously there: a subscriber, a rate.
+
+        Ends when ``source`` does, or the node.
+        """
+        iterator = aiter(source)
+        while True:
+            try:
+                item = self.call(_next, iterator)
+            except ClosedError:
+                if self._is_open:
+                    raise
+                return
+            if item is _END:
+                return
+            yield item
+
+    def deliver(self, source: AsyncIterable[T], function: Callable[[T], object]) -> Future[None]:
+        """Call ``function`` with everything that comes from ``source``, in the node's thread.
+
+        It has to return soon, as the node waits for it: good are ``put`` of a
+        :class:`queue.SimpleQueue`, ``append`` of a :class:`collections.deque`, or what a
+        GUI toolkit has for handing work to its own thread. What becomes of an exception is
+        the node's ``on_error``. The future ends with ``source``; cancel it to stop earlier.
+        Raises :class:`~aioros1.ClosedError`.
+        """
+        return self.submit(self._deliver(source, function))
+
+    def __repr__(self) -> str:
+        return f"<NodeThread {self.node.name} at {self.node.master_uri}, {self.node.state}>"
+
+    # inside, called in any thread
+
+    def _is_inside(self) -> bool:
+        return threading.current_thread() is self._thread
+
+    def _closed_error(self) -> ClosedError:
+        state = "closing" if self.node.state == "open" else self.node.state
+        why = f" ({reason})" if (reason := self.node.close_reason) is not None else ""
+        return ClosedError(f"node {self.node.name} is {state}, not open{why}")
+
+    def _wait(self, awaitable: Awaitable[T], timeout: float | None = None) -> T:
+        if self._is_inside():
+            _discard(awaitable)
+            raise RuntimeError(
+                f"the thread of node {self.node.name} would wait for itself; use await there"
+            )
+        # Made here, so that an interrupt at whatever place below finds it.
+        future: Future[T] = Future()
+        try:
+            self._submit(awaitable, timeout, future)
+            return _result(future)
+        except BaseException:
+            future.cancel()
+            raise
+
+    def _submit(self, awaitable: Awaitable[T], timeout: float | None, future: Future[T]) -> None:
+        if not isinstance(awaitable, Awaitable):
+            raise TypeError(f"expected an awaitable, got {awaitable!r}; call() is for functions")
+        with self._lock:
+            if self._is_open:
+                self._schedule(awaitable, timeout, future)
+                return
+        _discard(awaitable)
+        raise self._closed_error()
+
+    def _schedule(self, awaitable: Awaitable[T], timeout: float | None, future: Future[T]) -> None:
+        assert self._loop is not None
+        self._loop.call_soon_threadsafe(self._begin, awaitable, timeout, future)
+
+    # inside, in the node's thread
+
+    def _run_loop(self) -> None:
+        try:
+            with asyncio.Runner(loop_factory=self._loop_factory) as runner:
+                runner.run(self._live())
+        except BaseException as error:
+            self._error = error
+            if not self._started.done():
+                self._started.set_exception(error)
+
+    async def _live(self) -> None:
+        self._loop = asyncio.get_running_loop()
+        try:
+            async with self.node:
+                self._is_open = True
+                self._started.set_result(None)
+                await self.node.wait_closed()
+        finally:
+            with self._lock:
+                self._is_open = False
+            await self._finish()
+
+    async def _finish(self) -> None:
+        """Let end what was submitted; nobody may wait for ever."""
+        await asyncio.sleep(0)  # what was submitted last becomes a task ...
+        await asyncio.sleep(0)  # ... and has begun
+        tasks = asyncio.all_tasks() - {asyncio.current_task()}
+        if tasks:
+            _, late = await asyncio.wait(tasks, timeout=_GRACE)
+            for task in late:
+                task.cancel()
+            if late:
+                await asyncio.wait(late)
+
+    def _begin(self, awaitable: Awaitable[T], timeout: float | None, future: Future[T]) -> None:
+        loop = asyncio.get_running_loop()
+        task = loop.create_task(self._serve(awaitable, timeout, future), name=_name(awaitable))
+
+        def cancel(future: Future[T]) -> None:
+            if future.cancelled():
+                with contextlib.suppress(RuntimeError):  # the loop has ended, and so has the task
+                    loop.call_soon_threadsafe(task.cancel)
+
+        future.add_done_callback(cancel)
+
+    async def _serve(
+        self, awaitable: Awaitable[T], timeout: float | None, future: Future[T]
+    ) -> None:
+        """Await it, and give ``future`` what comes of it."""
+        result: Any = None
+        error: BaseException | None = None
+        try:
+            if timeout is None:
+                result = await awaitable
+            else:
+                async with deadline(timeout, f"{_name(awaitable)} did not end"):
+                    result = await awaitable
+        except asyncio.CancelledError:
+            if self._is_open:
+                future.cancel()
+            else:
+                error = self._closed_error()  # nobody asked for that cancellation
+        except BaseException as caught:  # SystemExit too is for who waits, not for the loop
+            error = caught
+        if not future.set_running_or_notify_cancel():
+            return
+        if error is None:
+            future.set_result(result)
+        else:
+            future.set_exception(error)
+
+    async def _deliver(self, source: AsyncIterable[T], function: Callable[[T], object]) -> None:
+        async for item in source:
+            try:
+                function(item)
+            except Exception as error:
+                self.node._user_error(error, f"the callback {_name(function)}")
+
+
+def _result(future: Future[T]) -> T:
+    is_main = threading.current_thread() is threading.main_thread()
+    while not future.done():
+        with contextlib.suppress(TimeoutError):
+            future.exception(_LOOK if is_main else None)
+    return future.result()
+
+
+async def _call(function: Callable[..., Any], args: tuple[Any, ...], kwargs: Any) -> Any:
+    result = function(*args, **kwargs)
+    return await result if isinstance(result, Awaitable) else result
+
+
+async def _next(iterator: AsyncIterator[T]) -> T:
+    return await anext(iterator, _END)
+
+
+def _discard(awaitable: Awaitable[Any]) -> None:
+    """Python warns of coroutines that are never awaited, and this one will not be."""
+    close = getattr(awaitable.__await__(), "close", None)
+    if close is not None:
+        close()
+
+
+def _name(what: object) -> str:
+    return getattr(what, "__qualname__", None) or type(what).__name__
