@@ -5,6 +5,7 @@ python examples/web_app.py [port]
     GET  /chatter         the last message, as JSON
     POST /chatter         publish the JSON object in the body, {"data": "hello"}
     GET  /chatter/stream  a websocket that gets every message
+    POST /sum             what the service add_two_ints says to {"a": 1, "b": 2}
 """
 
 import asyncio
@@ -15,22 +16,22 @@ from collections.abc import AsyncIterator
 from aiohttp import WSCloseCode, web
 
 import aioros1
+from aioros1.contrib.aiohttp import NODE, node_ctx
 from aioros1.msg.std_msgs import String
+from aioros1.srv.roscpp_tutorials import TwoInts
 
-NODE = web.AppKey("node", aioros1.Node)
 PUBLISHER = web.AppKey("publisher", aioros1.Publisher)
 SUBSCRIBER = web.AppKey("subscriber", aioros1.Subscriber)
 SOCKETS = web.AppKey("sockets", weakref.WeakSet)
 
 
-async def ros(app: web.Application) -> AsyncIterator[None]:
-    """The node starts and ends with the application."""
+async def topics(app: web.Application) -> AsyncIterator[None]:
+    """What the application has open as long as it runs."""
     async with (
-        aioros1.Node("web_app") as node,
-        node.advertise("chatter", String) as pub,
-        node.subscribe("chatter", String, queue_size=1) as sub,
+        app[NODE].advertise("chatter", String) as pub,
+        app[NODE].subscribe("chatter", String, queue_size=1) as sub,
     ):
-        app[NODE], app[PUBLISHER], app[SUBSCRIBER] = node, pub, sub
+        app[PUBLISHER], app[SUBSCRIBER] = pub, sub
         yield
 
 
@@ -48,6 +49,17 @@ async def publish(request: web.Request) -> web.Response:
     except (ValueError, aioros1.SerializationError) as error:
         raise web.HTTPBadRequest(text=str(error)) from error
     return web.Response(status=204)
+
+
+async def add(request: web.Request) -> web.Response:
+    try:
+        numbers = TwoInts.Request.from_dict(await request.json())
+        answer = await request.app[NODE].call("add_two_ints", TwoInts, numbers, timeout=5)
+    except (ValueError, aioros1.SerializationError) as error:
+        raise web.HTTPBadRequest(text=str(error)) from error
+    except (aioros1.ServiceError, aioros1.MasterError, TimeoutError) as error:
+        raise web.HTTPBadGateway(text=str(error)) from error
+    return web.json_response(answer.to_dict(json=True))
 
 
 async def stream(request: web.Request) -> web.WebSocketResponse:
@@ -79,13 +91,14 @@ async def close_sockets(app: web.Application) -> None:
 def make_app() -> web.Application:
     app = web.Application()
     app[SOCKETS] = weakref.WeakSet()
-    app.cleanup_ctx.append(ros)
+    app.cleanup_ctx.extend([node_ctx("web_app"), topics])
     app.on_shutdown.append(close_sockets)
     app.add_routes(
         [
             web.get("/chatter", last),
             web.post("/chatter", publish),
             web.get("/chatter/stream", stream),
+            web.post("/sum", add),
         ]
     )
     return app

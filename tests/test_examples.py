@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import ast
 import asyncio
 import contextlib
+import inspect
+import json
 import os
+import runpy
 import shutil
 import signal
 import sys
+from asyncio.subprocess import DEVNULL, PIPE
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 import aiohttp
 import pytest
@@ -58,6 +64,12 @@ class Program:
         assert line is not None, f"no line with {text!r}; output: {self.text}\n{self.errors}"
         return line
 
+    async def logs(self, text: str) -> None:
+        """Wait for ``text`` on the standard error."""
+        async with asyncio.timeout(PATIENCE), self._news:
+            await self._news.wait_for(lambda: text in self.errors or self._reading.done())
+        assert text in self.errors, f"no {text!r} in: {self.errors}"
+
     async def ends(self) -> int:
         """Its exit code, when everything it printed was read."""
         async with asyncio.timeout(PATIENCE):
@@ -79,19 +91,21 @@ class Program:
 
     async def _read_errors(self) -> None:
         assert self.process.stderr is not None
-        self.errors = (await self.process.stderr.read()).decode()
+        async for line in self.process.stderr:
+            self.errors += line.decode()
+            async with self._news:
+                self._news.notify_all()
 
 
 @contextlib.asynccontextmanager
 async def example(
-    name: str, *words: str, uri: str = "", folder: Path = EXAMPLES
+    name: str, *words: str, uri: str = "", folder: Path = EXAMPLES, stdin: int = DEVNULL
 ) -> AsyncIterator[Program]:
     environ = {key: value for key, value in os.environ.items() if not key.startswith("ROS_")}
     environ |= {"PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": "1", "ROS_MASTER_URI": uri}
     process = await asyncio.create_subprocess_exec(
         sys.executable, "-W", "error", str(folder / f"{name}.py"), *words,
-        env=environ, stdin=asyncio.subprocess.DEVNULL,
-        stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
+        env=environ, stdin=stdin, stdout=PIPE, stderr=PIPE,
     )  # fmt: skip
     program = Program(process)
     try:
@@ -233,11 +247,32 @@ async def test_api_tour(master):
         assert tour.errors == ""
 
 
-async def test_web_app(master, make_node):
+def free_port() -> int:
     sockets = bind_sockets("localhost")
-    port = sockets[0].getsockname()[1]
+    port: int = sockets[0].getsockname()[1]
     for sock in sockets:
         sock.close()
+    return port
+
+
+async def calls_add_two_ints(session: aiohttp.ClientSession, url: str, node: aioros1.Node) -> None:
+    """What a web application does that calls the service for its browsers."""
+    async with session.post(url, json={"a": 1, "b": 2}) as response:
+        assert response.status == 502
+        assert "add_two_ints" in await response.text()
+    adder = node.advertise_service(
+        "add_two_ints", "roscpp_tutorials/TwoInts", lambda request: {"sum": request.a + request.b}
+    )
+    async with adder:
+        async with session.post(url, json={"a": 1, "b": 2}) as response:
+            assert await response.json() == {"sum": 3}
+        for wrong in ({"a": "x"}, {"c": 1}, [], "?"):
+            async with session.post(url, json=wrong) as response:
+                assert response.status == 400
+
+
+async def test_web_app(master, make_node):
+    port = free_port()
     url = f"http://localhost:{port}/chatter"
     node = await make_node("tester")
     async with (
@@ -259,6 +294,8 @@ async def test_web_app(master, make_node):
             async with session.post(url, json=wrong) as response:
                 assert response.status == 400
 
+        await calls_add_two_ints(session, f"http://localhost:{port}/sum", node)
+
         # Out of ROS, into the web.
         async with session.ws_connect(f"{url}/stream") as socket:
             await pub.wait_for_subscribers(2, timeout=PATIENCE)
@@ -277,6 +314,145 @@ async def test_web_app(master, make_node):
                 pass
         assert await app.ends() == 0
         assert app.errors == ""
+
+
+async def test_starlette_app(master, make_node):
+    port = free_port()
+    url = f"http://localhost:{port}"
+    node = await make_node("tester")
+    async with (
+        node.advertise("chatter", "std_msgs/String") as pub,
+        node.subscribe("chatter", "std_msgs/String") as sub,
+        aiohttp.ClientSession(timeout=aiohttp.ClientTimeout(PATIENCE)) as session,
+        example("starlette_app", str(port), uri=master.uri) as app,
+    ):
+        await app.logs("Uvicorn running on")
+
+        # Out of the web, into ROS.
+        await sub.wait_for_publishers(2, timeout=PATIENCE)
+        async with session.post(f"{url}/chatter", json={"data": "from the web"}) as response:
+            assert response.status == 204
+        assert (await sub.get(timeout=PATIENCE)).data == "from the web"
+        async with session.post(f"{url}/chatter", json={"text": "?"}) as response:
+            assert response.status == 400
+        await calls_add_two_ints(session, f"{url}/sum", node)
+
+        # Out of ROS, into the web.
+        async with session.get(f"{url}/chatter/stream") as response:
+            assert await response.content.readline() == b": now\n"
+            assert await response.content.readline() == b"\n"
+            await pub.wait_for_subscribers(2, timeout=PATIENCE)
+            pub.publish(data="to the web")
+            assert await response.content.readline() == b'data: {"data": "to the web"}\n'
+        async with session.get(f"{url}/health") as response:
+            assert await response.json() == {"node": "/starlette_app", "state": "open"}
+
+        # Somebody ends the node, and the web is told.
+        await (await node.peer("/starlette_app")).shutdown("enough")
+        while True:
+            async with session.get(f"{url}/health") as response:
+                if response.status == 503:
+                    break
+        assert await app.end(signal.SIGINT) == 0
+        assert "Traceback" not in app.errors
+
+
+async def test_chat(master, make_node):
+    node = await make_node("tester")
+    async with (
+        node.advertise("room", "std_msgs/String") as pub,
+        node.subscribe("room", "std_msgs/String") as sub,
+        example("chat", "chatter:=room", uri=master.uri, stdin=PIPE) as chat,
+    ):
+        name = (await chat.says("you are /chat_")).split()[-1]
+        assert chat.process.stdin is not None
+        await pub.wait_for_subscribers(2, timeout=PATIENCE)
+        await sub.wait_for_publishers(2, timeout=PATIENCE)
+        pub.publish(data="is anybody there?")
+        await chat.says("/tester: is anybody there?")
+        await sub.get(timeout=PATIENCE)  # it is here too
+        chat.process.stdin.write(b"yes\n")
+        assert (await sub.get(timeout=PATIENCE)).data == "yes"
+        chat.process.stdin.close()
+        assert await chat.ends() == 0
+        assert chat.lines == [f"you are {name}", "/tester: is anybody there?"]
+        assert chat.errors == ""
+
+
+async def test_chat_that_is_interrupted(master, make_node):
+    node = await make_node("tester")
+    async with example("chat", uri=master.uri, stdin=PIPE) as chat:
+        await chat.says("you are /chat_")
+        assert await chat.end(signal.SIGINT) == -signal.SIGINT
+        assert "KeyboardInterrupt" in chat.errors
+        # It has taken its leave of the master.
+        assert (await node.graph.snapshot()).nodes == frozenset()
+
+
+async def test_monitor_tui(master, make_node):
+    from textual.widgets import DataTable, Static
+
+    monitor = runpy.run_path(str(EXAMPLES / "monitor_tui.py"))["Monitor"]
+    node = await make_node("tester")
+    async with (
+        node.advertise("chatter", "std_msgs/String") as chatter,
+        node.advertise("count", "std_msgs/Int32") as count,
+    ):
+        app = monitor(["chatter", "count"], master_uri=master.uri, host="localhost", rosout=False)
+        async with app.run_test() as pilot, asyncio.timeout(PATIENCE):
+            await chatter.wait_for_subscribers()
+            await count.wait_for_subscribers()
+            chatter.publish(data="[hello]")
+            count.publish(data=5)
+            count.publish(data=7)
+            table, text = app.query_one(DataTable), app.query_one("#message", Static)
+
+            def shows(topic: str, *cells: str) -> bool:
+                return table.get_row(topic)[1:3] == list(cells)
+
+            while not shows("/chatter", "std_msgs/String", "1"):
+                await pilot.pause()
+            while not shows("/count", "std_msgs/Int32", "2"):
+                await pilot.pause()
+            assert "[hello]" in str(text.visual)
+            await pilot.press("down")
+            await pilot.pause()
+            assert "data: 7" in str(text.visual)
+            await pilot.press("q")
+        assert app.return_code == 0
+        # Leaving the screen has cancelled the worker, and that has closed the node.
+        await node.graph.wait_for(lambda graph: set(graph.nodes) == {"/tester"}, timeout=PATIENCE)
+
+
+async def test_notebook():
+    """The cells one after the other in one loop, as Jupyter runs them."""
+    notebook = json.loads((EXAMPLES / "notebook.ipynb").read_text(encoding="utf-8"))
+    names: dict[str, Any] = {}
+    results = [
+        await run_cell("".join(cell["source"]), names)
+        for cell in notebook["cells"]
+        if cell["cell_type"] == "code"
+    ]
+    assert ["hello 0", "hello 1"] in results
+    assert True in results
+    assert not names["node"].is_open
+    assert not names["master"].is_open
+
+
+async def run_cell(source: str, names: dict[str, Any]) -> Any:
+    """What a cell shows: the value of its last line, if that is an expression."""
+    *body, last = ast.parse(source).body
+    parts: list[ast.Module | ast.Expression] = [ast.Module(body, [])]
+    parts.append(
+        ast.Expression(last.value) if isinstance(last, ast.Expr) else ast.Module([last], [])
+    )
+    result = None
+    for part in parts:
+        mode = "eval" if isinstance(part, ast.Expression) else "exec"
+        result = eval(compile(part, "cell", mode, flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT), names)
+        if inspect.iscoroutine(result):
+            result = await result
+    return result
 
 
 async def test_demo():
@@ -306,4 +482,5 @@ async def test_demo_says_what_did_not_come(tmp_path):
 async def test_every_example_is_tested():
     for name in sorted(os.listdir(EXAMPLES)):
         if name.endswith(".py"):
-            assert f'example("{name.removesuffix(".py")}"' in TESTS, f"{name} has no test"
+            tests = (f'example("{name.removesuffix(".py")}"', f'EXAMPLES / "{name}"')
+            assert any(test in TESTS for test in tests), f"{name} has no test"
