@@ -1,9 +1,9 @@
 """The code in the README and in ``docs`` works.
 
-A block of Python that runs an event loop itself (``asyncio.run``, ``aioros1.run``) is a
-program: it is started as one, and has to end well. All other blocks of a page are run one
-after the other, in one node, with the names of those before. A block after the comment
-``<!-- compiled only -->`` is not run.
+A block of Python that runs an event loop itself (``asyncio.run``, ``aioros1.run``), or has
+one in a thread, is a program: it is started as one, and has to end well. All other blocks of
+a page are run one after the other, in one node, with the names of those before. A block
+after the comment ``<!-- compiled only -->`` is not run.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ one_loop = pytest.mark.asyncio(loop_factories=["asyncio"])
 _BLOCK = re.compile(
     r"(?P<mark><!-- compiled only -->\n)?^```python\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL
 )
-_PROGRAM = re.compile(r"^(asyncio|aioros1|uvloop)\.run\(", re.MULTILINE)
+_PROGRAM = re.compile(r"^((asyncio|aioros1|uvloop)\.run|with NodeThread)\(", re.MULTILINE)
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 
+import aiohttp
 import pytest
 from aiohttp import web
 
@@ -54,6 +55,39 @@ async def test_an_application_does_not_start_without_its_node(master):
     app.cleanup_ctx.append(node_ctx("web", master_uri=master.uri, xmlrpc_port=master.port))
     with pytest.raises(OSError, match="in use"):
         await started(app)
+
+
+async def test_closing_the_node_at_shutdown_ends_handlers_that_stream(master, make_node):
+    """aiohttp would wait a minute for them."""
+
+    async def stream(request):
+        response = web.StreamResponse()
+        await response.prepare(request)
+        async with request.app[NODE].subscribe("chatter", "std_msgs/String") as sub:
+            async for message in sub:
+                await response.write(message.data.encode())
+        return response
+
+    async def end_streams(app):
+        await app[NODE].close()
+
+    app = web.Application()
+    app.cleanup_ctx.append(node_ctx("web", master_uri=master.uri, host="localhost"))
+    app.on_shutdown.append(end_streams)
+    app.router.add_get("/", stream)
+    runner = await started(app)
+    await web.TCPSite(runner, "localhost", 0).start()
+    port = runner.addresses[0][1]
+    node = await make_node("tester")
+    async with (
+        node.advertise("chatter", "std_msgs/String", latch=True) as pub,
+        aiohttp.ClientSession() as session,
+        session.get(f"http://localhost:{port}") as response,
+    ):
+        pub.publish(data="hello")
+        assert await response.content.readexactly(5) == b"hello"
+        await runner.cleanup()
+        assert await response.content.read() == b""
 
 
 async def test_an_error_in_a_callback_of_the_node_ends_the_application(master):
