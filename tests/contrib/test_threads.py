@@ -23,18 +23,19 @@ import aioros1
 from aioros1.contrib.threads import NodeThread
 from aioros1.msg.std_msgs import String
 from aioros1.srv.std_srvs import SetBool
-from tests.conftest import LOOPS
 
 PATIENCE = 10.0
 ROOT = Path(aioros1.__file__).parents[1]
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-@pytest.fixture(params=sorted(LOOPS))
+@pytest.fixture(params=["asyncio", "uvloop"])
 def make(master_uri: str, request: pytest.FixtureRequest) -> Callable[..., NodeThread]:
+    loop_factory = pytest.importorskip(request.param).new_event_loop
+
     def make(name: str = "threaded", **options: Any) -> NodeThread:
         options = {"master_uri": master_uri, "host": "localhost", "rosout": False} | options
-        return NodeThread(name, loop_factory=LOOPS[request.param], **options)
+        return NodeThread(name, loop_factory=loop_factory, **options)
 
     return make
 
