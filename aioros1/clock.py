@@ -31,6 +31,7 @@ class Clock:
         self.is_simulated = False
         self._simulated = 0
         self._changed = Waiters()
+        self._awaited: list[int] = []  # by those who wait for simulated time
 
     def nanoseconds(self) -> int:
         """Nanoseconds since the epoch, or of the simulation."""
@@ -44,6 +45,17 @@ class Clock:
         """Simulated time has come to ``now``."""
         self._simulated = now.to_nsec()
         self._changed.wake()
+
+    @property
+    def next_awaited(self) -> int | None:
+        """The earliest moment of simulated time that somebody waits for, in nanoseconds."""
+        return min(self._awaited, default=None)
+
+    async def wait_until_shows(self, moment: int, *, timeout: float) -> None:
+        """Wait until simulated time is exactly ``moment`` nanoseconds."""
+        await self._changed.wait_until(
+            lambda: self._simulated == moment, timeout=timeout, what=f"no time {moment} ns"
+        )
 
     async def follow(self, node: Node) -> None:
         """Take the time from ``/clock``, as soon as the master lets us."""
@@ -87,9 +99,13 @@ class Clock:
         """Wait until :meth:`steady` has come to ``moment``."""
         if self.is_simulated:
             last = self._simulated
-            while last <= self._simulated < moment:
-                last = self._simulated
-                await self._changed.wait()
+            self._awaited.append(moment)
+            try:
+                while last <= self._simulated < moment:
+                    last = self._simulated
+                    await self._changed.wait()
+            finally:
+                self._awaited.remove(moment)
             return
         if moment <= self.steady():
             await asyncio.sleep(0)  # others want to run all the same

@@ -1,18 +1,22 @@
-"""Fixtures of the whole suite: both event loops, a master, nodes, and what must not be left."""
+"""Fixtures of the whole suite: both event loops, a clean environment, and what must not block."""
 
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import os
-from collections.abc import AsyncIterator, Callable, Generator, Iterator
+import sys
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 from blockbuster import blockbuster_ctx
 
 import aioros1
+
+# The plugin that comes with the package. Where the package is installed, pytest has loaded it
+# already, by another name; from which place, the interpreter's path decides, as for all of it.
+_PLUGIN = "aioros1.testing.pytest_plugin"
+pytest_plugins = [] if _PLUGIN in sys.modules else [_PLUGIN]
 
 LOOPS: dict[str, Callable[[], asyncio.AbstractEventLoop]] = {"asyncio": asyncio.new_event_loop}
 try:
@@ -57,18 +61,6 @@ def clean_environment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(autouse=True)
-def no_task_left(request: pytest.FixtureRequest) -> Iterator[None]:
-    """After an asynchronous test and its fixtures, no task of ours runs any more."""
-    if not request.node.get_closest_marker("asyncio"):
-        yield
-        return
-    runner: Any = request.getfixturevalue("_function_scoped_runner")
-    yield
-    left = asyncio.all_tasks(runner.get_loop())
-    assert not left, f"tasks left behind: {left}"
-
-
-@pytest.fixture(autouse=True)
 def nothing_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
     """The library makes no blocking call in the event loop, but to read small files once:
     definitions, from a local disk, and what the system says of itself, from its memory.
@@ -85,31 +77,6 @@ def nothing_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
 
 
 @pytest.fixture
-async def master() -> AsyncIterator[aioros1.Master]:
-    """A master of our own on a free port, and nothing else in its graph."""
-    # Without the node /rosout, so that the graph holds what a test puts there.
-    async with aioros1.Master(host="localhost", port=0, rosout=False) as master:
-        yield master
-
-
-class MakeNode:
-    """Starts nodes that belong to the ``master`` fixture and are closed with the test."""
-
-    def __init__(self, uri: str, stack: contextlib.AsyncExitStack) -> None:
-        self._uri = uri
-        self._stack = stack
-
-    async def __call__(self, name: str = "node", **options: Any) -> aioros1.Node:
-        options.setdefault("master_uri", self._uri)
-        options.setdefault("host", "localhost")
-        # Quiet, unless the test is about them: less to set up, and less in the graph.
-        options.setdefault("rosout", False)
-        options.setdefault("logger_services", False)
-        return await self._stack.enter_async_context(aioros1.Node(name, **options))
-
-
-@pytest.fixture
-async def make_node(master: aioros1.Master) -> AsyncIterator[MakeNode]:
-    """``await make_node("name", **options)``: a started node."""
-    async with contextlib.AsyncExitStack() as stack:
-        yield MakeNode(master.uri, stack)
+def master(ros_master: aioros1.Master) -> aioros1.Master:
+    """The plugin's, by the name that most tests have for it."""
+    return ros_master

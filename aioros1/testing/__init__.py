@@ -1,7 +1,49 @@
-"""For tests of programs that use ROS 1: what goes wrong in the field, on purpose."""
+"""For tests of programs that use ROS 1: what goes wrong in the field, on purpose.
 
-from aioros1.testing.flaky_connection import FlakyConnection
-from aioros1.testing.flaky_proxy import FlakyProxy
-from aioros1.testing.node_proxies import NodeProxies, proxies_before
+The fixtures for pytest are in :mod:`aioros1.testing.pytest_plugin`. Names are imported when
+they are first used, because pytest loads that module wherever aioros1 is installed.
+"""
 
-__all__ = ["FlakyConnection", "FlakyProxy", "NodeProxies", "proxies_before"]
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from aioros1.testing.flaky_connection import FlakyConnection
+    from aioros1.testing.flaky_proxy import FlakyProxy
+    from aioros1.testing.makers import MakeFlakyProxy, MakeNode
+    from aioros1.testing.node_proxies import NodeProxies, proxies_before
+    from aioros1.testing.simulated_clock import SimulatedClock
+
+_HOMES = {
+    "FlakyConnection": "flaky_connection",
+    "FlakyProxy": "flaky_proxy",
+    "MakeFlakyProxy": "makers",
+    "MakeNode": "makers",
+    "NodeProxies": "node_proxies",
+    "SimulatedClock": "simulated_clock",
+    "proxies_before": "node_proxies",
+}
+
+__all__ = [
+    "FlakyConnection",
+    "FlakyProxy",
+    "MakeFlakyProxy",
+    "MakeNode",
+    "NodeProxies",
+    "SimulatedClock",
+    "proxies_before",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

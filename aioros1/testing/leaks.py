@@ -1,0 +1,164 @@
+"""What a test has left behind."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import gc
+import os
+import socket
+import stat
+import sys
+import threading
+import time
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
+__all__ = ["LeakCheck"]
+
+_PATIENCE = 1.0
+"""Seconds for transports and threads that were told to end; asyncio offers no way to wait."""
+
+_TURNS = 5
+"""Turns of the loop for what closes in a later one, and cannot be told from uvloop's own."""
+
+_DIRECTORIES = ("/proc/self/fd", "/dev/fd")
+
+_File = tuple[int, int, int]
+"""Its number, and what tells it from others with that number before and after."""
+
+
+class LeakCheck:
+    """Knows what there was when it was made, and says what has come since and not gone.
+
+    Tasks of an event loop, with the nodes they belong to; open sockets, pipes and files, where
+    the system lists them; threads, but for those in which the loop runs ``asyncio.to_thread``
+    and looks up addresses: they belong to the loop.
+
+    It is made, and asked for :meth:`leaks`, while the loop does not run: for the time that it
+    does, uvloop has sockets of its own. What is in the loop is said by :meth:`look_into_loop`,
+    before that.
+    """
+
+    def __init__(self) -> None:
+        self._threads = set(threading.enumerate())
+        self._files = set(_open_files())
+        self._found: list[str] = []
+        self._executor: str | None = None
+
+    async def look_into_loop(self, before: set[asyncio.Task[Any]]) -> None:
+        """See which tasks are there that were not ``before``, and wait a while for transports
+        and threads that were told to end."""
+        left = asyncio.all_tasks() - before - {asyncio.current_task()}
+        self._found += [*_unclosed(left), *sorted(f"task {task!r}" for task in left)]
+        for _ in range(_TURNS):
+            await asyncio.sleep(0)
+        if self._new_threads():
+            self._executor = await _executor_prefix()
+        end = time.monotonic() + _PATIENCE
+        while not left and time.monotonic() < end:
+            new = [each for each in self._new_files() if not _is_nameless(each[0])]
+            if not new and not self._new_threads():
+                break
+            await asyncio.sleep(0.01)
+
+    def leaks(self, *, patience: float = 0.0) -> list[str]:
+        """A line for each leak."""
+        end = time.monotonic() + patience
+        while (self._new_files() or self._new_threads()) and time.monotonic() < end:
+            time.sleep(0.01)
+        if self._new_files() or self._new_threads():
+            # Of what is only garbage, only that is a leak which complains that nobody closed it.
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always", ResourceWarning)
+                gc.collect()
+            self._found += sorted(
+                str(each.message) for each in caught if each.category is ResourceWarning
+            )
+            self._found += sorted(f"thread {each!r}" for each in self._new_threads())
+            self._found += [_describe(number) for number, *_ in self._new_files()]
+        return self._found
+
+    def _new_threads(self) -> list[threading.Thread]:
+        return [
+            each
+            for each in threading.enumerate()
+            if each not in self._threads
+            # Threads of C code that have once called Python stay known to it.
+            and not isinstance(each, threading._DummyThread)
+            and not (self._executor is not None and each.name.startswith(self._executor))
+        ]
+
+    def _new_files(self) -> list[_File]:
+        return sorted(set(_open_files()) - self._files)
+
+
+def _unclosed(tasks: set[asyncio.Task[Any]]) -> Iterator[str]:
+    """The nodes that have one of ``tasks``."""
+    node = sys.modules.get("aioros1.node")
+    if tasks and node is not None:
+        for each in gc.get_objects():
+            # By type(): looking at the __class__ of a stranger may run code of it.
+            if issubclass(type(each), node.Node) and each._supervisor._task in tasks:
+                yield f"never closed: {each!r}"
+
+
+async def _executor_prefix() -> str | None:
+    """How the names of the threads of the loop's executor begin, whatever loop it is."""
+    running = asyncio.get_running_loop().run_in_executor(None, threading.current_thread)
+    try:
+        async with asyncio.timeout(_PATIENCE):
+            thread = await running
+    except TimeoutError:  # all of them are busy, and are left indeed
+        return None
+    return thread.name.rpartition("_")[0] + "_"
+
+
+def _open_files() -> Iterator[_File]:
+    """What is open of sockets, pipes and files; none where the system does not list them."""
+    for directory in _DIRECTORIES:
+        try:
+            names = os.listdir(directory)
+        except OSError:
+            continue
+        for name in names:
+            # What was used for listing is closed again.
+            with contextlib.suppress(OSError, ValueError):
+                status = os.fstat(int(name))
+                # Devices and what has no kind, as event loops have them, are left out.
+                if stat.S_IFMT(status.st_mode) in (stat.S_IFSOCK, stat.S_IFIFO, stat.S_IFREG):
+                    yield int(name), status.st_dev, status.st_ino
+        return
+
+
+def _socket(number: int) -> socket.socket | None:
+    """A copy of the socket with this number, if it is one."""
+    copy = -1
+    try:
+        copy = os.dup(number)
+        return socket.socket(fileno=copy)
+    except OSError:
+        if copy >= 0:
+            os.close(copy)
+        return None
+
+
+def _is_nameless(number: int) -> bool:
+    """Whether it is one of a pair of sockets, as uvloop has while it runs."""
+    if (copy := _socket(number)) is None:
+        return False
+    with copy:
+        return copy.getsockname() in ("", b"")
+
+
+def _describe(number: int) -> str:
+    if (copy := _socket(number)) is None:
+        with contextlib.suppress(OSError):
+            return f"file {number}: {os.readlink(f'/proc/self/fd/{number}')}"
+        return f"file {number}"
+    with copy:
+        peer = ""
+        with contextlib.suppress(OSError):
+            peer = f" connected to {copy.getpeername()}"
+        return f"socket {number}: {copy.family.name} at {copy.getsockname()}{peer}"

@@ -1,0 +1,56 @@
+"""What a test makes, and what is closed with it."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING, Any
+
+from aioros1.node import Node
+
+if TYPE_CHECKING:
+    from aioros1.testing.flaky_proxy import FlakyProxy
+    from aioros1.testing.simulated_clock import SimulatedClock
+
+__all__ = ["MakeFlakyProxy", "MakeNode"]
+
+
+class MakeNode:
+    """``await make_node("name", **options)``: a started node in the graph of ``master_uri``.
+
+    Nodes are at ``localhost`` and quiet, unless the options say otherwise: no ``/rosout``,
+    no services for logger levels. The rest is as for :class:`~aioros1.Node`. Those that
+    follow simulated time have the time of ``clock`` from the start.
+    """
+
+    def __init__(
+        self,
+        master_uri: str,
+        stack: contextlib.AsyncExitStack,
+        clock: SimulatedClock | None = None,
+    ) -> None:
+        self._master_uri = master_uri
+        self._stack = stack
+        self._clock = clock
+
+    async def __call__(self, name: str = "node", **options: Any) -> Node:
+        options.setdefault("master_uri", self._master_uri)
+        options.setdefault("host", "localhost")
+        # Less to set up, and less in the graph.
+        options.setdefault("rosout", False)
+        options.setdefault("logger_services", False)
+        node = await self._stack.enter_async_context(Node(name, **options))
+        if self._clock is not None:
+            await self._clock.track(node)
+        return node
+
+
+class MakeFlakyProxy:
+    """``await flaky_proxy(host, port, **options)``: an open :class:`FlakyProxy`."""
+
+    def __init__(self, stack: contextlib.AsyncExitStack) -> None:
+        self._stack = stack
+
+    async def __call__(self, host: str, port: int, **options: Any) -> FlakyProxy:
+        from aioros1.testing.flaky_proxy import FlakyProxy
+
+        return await self._stack.enter_async_context(FlakyProxy(host, port, **options))

@@ -1,0 +1,202 @@
+"""Simulated time that a test drives."""
+
+from __future__ import annotations
+
+import asyncio
+from types import TracebackType
+from typing import Self
+
+from aioros1.errors import ClosedError
+from aioros1.node import Node
+from aioros1.publisher import Publisher
+from aioros1.time import Duration, Time
+
+__all__ = ["SimulatedClock"]
+
+_PATIENCE = 5.0
+"""Seconds, of the real kind, for a node to take a time over, or for tasks to come to rest."""
+
+_QUIET_TURNS = 5
+"""Turns of the event loop in which no task was ready to run. One is not enough: what
+``gather`` and the like wait for comes by way of callbacks, a turn for each of them."""
+
+
+class SimulatedClock:
+    """Publishes ``/clock``, and waits for what comes of it.
+
+    ::
+
+        async with SimulatedClock(master.uri) as clock, Node("robot") as node:
+            await clock.track(node)
+            await clock.advance(10)
+
+    When the block begins, ``/use_sim_time`` is set to true, a node ``/simulated_clock``
+    publishes, latched, and the time is ``start``, seconds or a :class:`~aioros1.Time`. It
+    cannot be zero: that means in ROS that there is no time yet. When the block ends,
+    ``/use_sim_time`` is deleted.
+
+    :meth:`set` and :meth:`advance` return when two things have happened. Every node that
+    was given to :meth:`track`, is open and follows ``/clock`` has the new time. And what was
+    woken by it has run: no task of the event loop, but the one that waits here, is ready to
+    run, so that each waits for something that has not happened, as for a later time, for a
+    message or for real time. A sleep that is over has returned then, and what comes after it
+    has run up to where it has to wait; so have the bodies of rates and the callbacks of
+    timers. They let the tasks run in the same way before the time changes: a task that was
+    just made has begun to wait. What is on its way between nodes is not waited for, nor are
+    programs in other processes; they get ``/clock`` as from any simulator.
+    """
+
+    def __init__(self, master_uri: str | None = None, *, start: float | Time = 1.0) -> None:
+        self._now = _moment(start)
+        self._node = Node(
+            "simulated_clock",
+            namespace="/",
+            master_uri=master_uri,
+            rosout=False,
+            logger_services=False,
+            use_sim_time=False,
+        )
+        self._tracked: list[Node] = []
+        self._lock = asyncio.Lock()
+        self._publisher: Publisher | None = None
+
+    async def __aenter__(self) -> Self:
+        await self._node.__aenter__()
+        try:
+            await self._node.set_param("/use_sim_time", True)
+            # Nobody is to miss a step, however quickly they come.
+            self._publisher = await self._node.advertise(
+                "/clock", "rosgraph_msgs/Clock", latch=True, overflow="block"
+            )
+            await self._publish(self._now)
+        except BaseException:
+            await self._node.close()
+            raise
+        return self
+
+    async def __aexit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        try:
+            if self._node.is_open and await self._node.has_param("/use_sim_time"):
+                await self._node.delete_param("/use_sim_time")
+        except ConnectionError:
+            pass  # the master has gone, and the parameter with it
+        finally:
+            await self._node.__aexit__(exc_type, exc, traceback)
+
+    @property
+    def now(self) -> Time:
+        """The time that was published last."""
+        return self._now
+
+    async def track(self, node: Node) -> None:
+        """Wait for ``node``, now and at each change, until it has the time over.
+
+        For nodes in the same event loop; in tests with pytest those of the fixtures are
+        tracked already. Raises :class:`TimeoutError` if the time does not come to it.
+        """
+        self._tracked.append(node)
+        await self._wait_for(node)
+
+    async def set(self, time: float | Time) -> None:
+        """Jump to ``time``, in seconds or as a :class:`~aioros1.Time`, in one step.
+
+        Rates and timers that should have ticked several times on the way tick once. A jump
+        backwards ends whatever waits, as when a simulation starts over.
+
+        Raises :class:`ValueError` for a time that is not after zero, and
+        :class:`TimeoutError` as :meth:`advance` does.
+        """
+        moment = _moment(time)
+        async with self._lock:
+            await self._settle()
+            await self._step(moment)
+
+    async def advance(self, duration: float | Duration) -> None:
+        """Let ``duration`` pass, in seconds or as a :class:`~aioros1.Duration`.
+
+        The clock stops on the way wherever a tracked node waits for a moment, the earliest
+        first, so that everything happens at its time: a rate of 10 ticks ten times in a
+        second, each time with the right :attr:`now`.
+
+        Raises :class:`ValueError` for a duration that is negative, and :class:`TimeoutError`
+        when five real seconds did not do for a step: a node did not take the time over, or
+        a task never waits for anything.
+        """
+        length = duration if isinstance(duration, Duration) else Duration.from_sec(duration)
+        if length < Duration():
+            raise ValueError(f"time cannot advance by {duration!r}; set() can jump backwards")
+        async with self._lock:
+            await self._settle()
+            end = self._now + length
+            while (stop := self._next_awaited()) is not None and stop < end:
+                await self._step(stop)
+            await self._step(end)
+
+    def _next_awaited(self) -> Time | None:
+        """The earliest moment after now that somebody waits for."""
+        moments = [
+            moment
+            for node in self._following()
+            if (moment := node._clock.next_awaited) is not None and moment > self._now.to_nsec()
+        ]
+        return Time.from_nsec(min(moments)) if moments else None
+
+    async def _step(self, moment: Time) -> None:
+        await self._publish(moment)
+        for node in self._following():
+            await self._wait_for(node)
+        await self._settle()
+
+    async def _publish(self, moment: Time) -> None:
+        assert self._publisher is not None, "a SimulatedClock is used with `async with`"
+        await self._publisher.send(clock=moment, timeout=_PATIENCE)
+        self._now = moment
+
+    def _following(self) -> list[Node]:
+        return [node for node in self._tracked if node.is_open and node._clock.is_simulated]
+
+    async def _wait_for(self, node: Node) -> None:
+        if not (node.is_open and node._clock.is_simulated):
+            return
+        try:
+            await node._clock.wait_until_shows(self._now.to_nsec(), timeout=_PATIENCE)
+        except TimeoutError:
+            raise TimeoutError(
+                f"node {node.name} did not get the time {self._now} of /clock within "
+                f"{_PATIENCE} s; it has {node.now()}"
+            ) from None
+        except ClosedError:
+            pass  # it needs no time any more
+
+    async def _settle(self) -> None:
+        """Let tasks run until each of them waits for something that has not happened."""
+        this = asyncio.current_task()
+        loop = asyncio.get_running_loop()
+        end = loop.time() + _PATIENCE
+        quiet = 0
+        while quiet < _QUIET_TURNS:
+            await asyncio.sleep(0)
+            ready = [task for task in asyncio.all_tasks() if task is not this and _is_ready(task)]
+            quiet = 0 if ready else quiet + 1
+            if ready and loop.time() > end:
+                names = ", ".join(sorted(task.get_name() for task in ready))
+                raise TimeoutError(f"tasks that never wait for anything in {_PATIENCE} s: {names}")
+
+
+def _is_ready(task: asyncio.Task[object]) -> bool:
+    # There is no public way to ask; the tasks of asyncio, which uvloop has too, have this
+    # attribute in every version of Python.
+    waiter = getattr(task, "_fut_waiter", None)
+    return waiter is None or bool(waiter.done())
+
+
+def _moment(time: float | Time) -> Time:
+    moment = time if isinstance(time, Time) else Time.from_sec(time)
+    if moment.is_zero():
+        raise ValueError(f"simulated time must be after zero, which means no time, got {time!r}")
+    return moment
