@@ -16,7 +16,7 @@ import aioros1
 # The plugin that comes with the package. Where the package is installed, pytest has loaded it
 # already, by another name; from which place, the interpreter's path decides, as for all of it.
 _PLUGIN = "aioros1.testing.pytest_plugin"
-pytest_plugins = [] if _PLUGIN in sys.modules else [_PLUGIN]
+pytest_plugins = ["pytester", *([] if _PLUGIN in sys.modules else [_PLUGIN])]
 
 LOOPS: dict[str, Callable[[], asyncio.AbstractEventLoop]] = {"asyncio": asyncio.new_event_loop}
 try:

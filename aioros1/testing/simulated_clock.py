@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 from aioros1.errors import ClosedError
 from aioros1.node import Node
@@ -58,7 +58,7 @@ class SimulatedClock:
         )
         self._tracked: list[Node] = []
         self._lock = asyncio.Lock()
-        self._publisher: Publisher | None = None
+        self._publisher: Publisher[Any] | None = None
 
     async def __aenter__(self) -> Self:
         await self._node.__aenter__()
