@@ -36,7 +36,8 @@ PATIENCE = 20.0
 one_loop = pytest.mark.asyncio(loop_factories=["asyncio"])
 
 _BLOCK = re.compile(
-    r"(?P<mark><!-- compiled only -->\n)?^```python\n(?P<code>.*?)^```$", re.MULTILINE | re.DOTALL
+    r"(?:<!-- (?P<mark>compiled only|pytest) -->\n)?^```python\n(?P<code>.*?)^```$",
+    re.MULTILINE | re.DOTALL,
 )
 _PROGRAM = re.compile(r"^((asyncio|aioros1|uvloop)\.run|with NodeThread)\(", re.MULTILINE)
 
@@ -46,11 +47,12 @@ class Block:
     page: Path
     line: int
     code: str
-    is_run: bool
+    mark: str | None
 
     @property
-    def is_program(self) -> bool:
-        return _PROGRAM.search(self.code) is not None
+    def kind(self) -> str:
+        """What is done with it: ``program``, ``fragment``, or what the mark says."""
+        return self.mark or ("program" if _PROGRAM.search(self.code) else "fragment")
 
     @property
     def place(self) -> str:
@@ -67,17 +69,18 @@ class Block:
 def blocks_of(page: Path) -> list[Block]:
     text = page.read_text(encoding="utf-8")
     return [
-        Block(page, text.count("\n", 0, match.start("code")), match["code"], not match["mark"])
+        Block(page, text.count("\n", 0, match.start("code")), match["code"], match["mark"])
         for match in _BLOCK.finditer(text)
     ]
 
 
 BLOCKS = [block for page in PAGES for block in blocks_of(page)]
-PROGRAMS = [block for block in BLOCKS if block.is_program and block.is_run]
+PROGRAMS = [block for block in BLOCKS if block.kind == "program"]
+TEST_FILES = [block for block in BLOCKS if block.kind == "pytest"]
 FRAGMENTS = {
     page: fragments
     for page in PAGES
-    if (fragments := [b for b in blocks_of(page) if b.is_run and not b.is_program])
+    if (fragments := [b for b in blocks_of(page) if b.kind == "fragment"])
 }
 
 
@@ -138,6 +141,21 @@ async def test_programs_run(block, master):
             process.kill()
             await process.communicate()
     assert (process.returncode, errors.decode()) == (0, "")
+
+
+@pytest.mark.parametrize("block", TEST_FILES, ids=place)
+@pytest.mark.parametrize("mode", ["auto", "strict"])
+def test_tests_pass(block, mode, pytester, monkeypatch):
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    pytester.makepyfile(block.code)
+    result = pytester.runpytest_subprocess(
+        *("-p", "pytest_asyncio.plugin", "-p", "aioros1.testing.pytest_plugin"),
+        *(f"--asyncio-mode={mode}", "-W", "error", "--strict-markers"),
+        *("-o", "asyncio_default_fixture_loop_scope=function"),
+        timeout=PATIENCE,
+    )
+    result.assert_outcomes(passed=block.code.count("def test_"))
 
 
 def test_commands_of_the_readme_set_everything_up():

@@ -40,7 +40,8 @@ def _in_the_loop(request: pytest.FixtureRequest) -> None:
 
 def _why_not(request: pytest.FixtureRequest) -> str | None:
     config = request.config
-    if not config.pluginmanager.is_registered(sys.modules.get("pytest_asyncio.plugin")):
+    plugin = sys.modules.get("pytest_asyncio.plugin")
+    if plugin is None or not config.pluginmanager.is_registered(plugin):
         return "they need pytest-asyncio, which is not loaded; pip install pytest-asyncio"
     marker = request.node.get_closest_marker("asyncio")
     if marker is None:

@@ -27,7 +27,7 @@ def run(pytester, monkeypatch):
     monkeypatch.delenv("PYTEST_ADDOPTS", raising=False)
 
     def run(code, *options, plugins=(ASYNCIO,), mode="auto", **ini):
-        if plugins:
+        if ASYNCIO in plugins:
             ini |= {"asyncio_mode": mode, "asyncio_default_fixture_loop_scope": "function"} | ini
         lines = "".join(f"{key} = {value}\n" for key, value in ini.items())
         pytester.makeini(f"[pytest]\naddopts = --strict-markers\nfilterwarnings = error\n{lines}")
@@ -128,6 +128,7 @@ ONE = "async def test_it(ros_node): pass\n"
     ("code", "options", "expected"),
     [
         (ONE, {"plugins": ()}, "*they need pytest-asyncio, which is not loaded; pip install *"),
+        (ONE, {"plugins": ("no:asyncio",)}, "*they need *, which is *"),
         (ONE, {"mode": "strict"}, "*mark it with @pytest.mark.asyncio or set asyncio_mode = *"),
         ("def test_it(flaky_proxy): pass\n", {}, "*the test has to be run by pytest-asyncio*"),
         (
@@ -141,7 +142,7 @@ ONE = "async def test_it(ros_node): pass\n"
             "*set asyncio_default_fixture_loop_scope = module",
         ),
     ],
-    ids=["no plugin", "no marker", "no coroutine", "anyio", "another loop"],
+    ids=["no plugin", "blocked", "no marker", "no coroutine", "anyio", "another loop"],
 )
 def test_where_they_cannot_be_used_they_say_why(run, code, options, expected):
     result = run(code, **options)
