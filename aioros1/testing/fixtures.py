@@ -148,7 +148,7 @@ def no_leaks(request: pytest.FixtureRequest) -> Iterator[LeakCheck]:
         request.getfixturevalue("_tasks_before")  # the loop is there, and its files
     check = LeakCheck()
     yield check
-    if leaks := check.leaks(patience=0 if _is_asyncio(request) else 1):
+    if leaks := check.leaks(wait=not _is_asyncio(request)):
         pytest.fail("\n  ".join(["left behind by the test:", *leaks]), pytrace=False)
 
 

@@ -63,9 +63,9 @@ class LeakCheck:
                 break
             await asyncio.sleep(0.01)
 
-    def leaks(self, *, patience: float = 0.0) -> list[str]:
-        """A line for each leak."""
-        end = time.monotonic() + patience
+    def leaks(self, *, wait: bool) -> list[str]:
+        """A line for each leak, after a while if :meth:`look_into_loop` did not ``wait``."""
+        end = time.monotonic() + (_PATIENCE if wait else 0)
         while (self._new_files() or self._new_threads()) and time.monotonic() < end:
             time.sleep(0.01)
         if self._new_files() or self._new_threads():
