@@ -91,7 +91,8 @@ class LeakCheck:
         ]
 
     def _new_files(self) -> list[_File]:
-        return sorted(set(_open_files()) - self._files)
+        kept = _pipes_of_multiprocessing()
+        return sorted(each for each in set(_open_files()) - self._files if each[0] not in kept)
 
 
 def _unclosed(tasks: set[asyncio.Task[Any]]) -> Iterator[str]:
@@ -130,6 +131,18 @@ def _open_files() -> Iterator[_File]:
                 if stat.S_IFMT(status.st_mode) in (stat.S_IFSOCK, stat.S_IFIFO, stat.S_IFREG):
                     yield int(name), status.st_dev, status.st_ino
         return
+
+
+def _pipes_of_multiprocessing() -> set[Any]:
+    """To the helpers that it starts once, for all processes to come, and keeps."""
+    helpers = {
+        "resource_tracker": ("_resource_tracker", "_fd"),
+        "forkserver": ("_forkserver", "_forkserver_alive_fd"),
+    }
+    return {
+        getattr(getattr(sys.modules.get(f"multiprocessing.{name}"), helper, None), pipe, None)
+        for name, (helper, pipe) in helpers.items()
+    }
 
 
 def _socket(number: int) -> socket.socket | None:

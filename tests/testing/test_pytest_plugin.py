@@ -254,9 +254,12 @@ def test_this_plain_one(): leak()
     run(IMPATIENT + code).assert_outcomes(passed=6, errors=2)
 
 
+@listed_files
 def test_what_is_shared_or_ends_in_time_is_no_leak(run):
     result = run(
         """
+import multiprocessing
+
 @pytest.fixture(scope="module")
 def shared():
     end = threading.Event()
@@ -281,10 +284,16 @@ async def test_it(connection, shared):
 
 def test_plain(shared):
     threading.Timer(0.05, print).start()
+
+def test_helpers_of_multiprocessing():
+    context = multiprocessing.get_context("forkserver")
+    with context.Pool(1) as pool:
+        assert pool.apply(abs, (-1,)) == 1
+    pool.join()
 """,
         aioros1_check_leaks="true",
     )
-    result.assert_outcomes(passed=2)
+    result.assert_outcomes(passed=3)
 
 
 @listed_files
