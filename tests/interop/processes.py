@@ -202,6 +202,10 @@ class Process:
 
 def _group_is_alive(group: int) -> bool:
     """Whether a process of the group runs, and is not just waiting to be reaped."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False  # without a look at every process there is
     for path in Path("/proc").glob("[0-9]*/stat"):
         try:
             state, _, group_of_it = path.read_text().rpartition(")")[2].split()[:3]
