@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any, Self
@@ -18,13 +19,17 @@ __all__ = ["Clock", "Rate", "Timer"]
 
 _RETRY = 1.0
 
+_SILENCE = 5.0
+"""Seconds without any time on ``/clock`` after which that is worth a warning."""
+
 
 class Clock:
     """Tells the time and waits for it.
 
     While time is simulated it is what ``/clock`` said last, zero before that, and
     waiting goes by it. When it jumps backwards, because a simulation or a bag starts
-    over, whoever waits goes on at once: the time waited for may never come.
+    over, whoever waits goes on at once: the time waited for may never come. The same
+    holds when a node that waits by the wall clock learns that time is simulated.
     """
 
     def __init__(self) -> None:
@@ -39,7 +44,9 @@ class Clock:
 
     def simulate(self) -> None:
         """From now on the time is what :meth:`set` says."""
-        self.is_simulated = True
+        if not self.is_simulated:
+            self.is_simulated = True
+            self._changed.wake()
 
     def set(self, now: Time) -> None:
         """Simulated time has come to ``now``."""
@@ -65,6 +72,14 @@ class Clock:
                 subscriber = await node.subscribe("/clock", "rosgraph_msgs/Clock", queue_size=1)
             except MasterUnreachable:
                 await node._pause(_RETRY)
+        try:
+            self.set((await subscriber.get(timeout=_SILENCE)).clock)
+        except TimeoutError:
+            node.log.warning(
+                "time is simulated, but nothing came on /clock in %g s: it stands at zero, and "
+                "nothing that waits for it goes on",
+                _SILENCE,
+            )
         async for message in subscriber:
             self.set(message.clock)
 
@@ -78,12 +93,14 @@ class Clock:
 
     async def sleep(self, duration: float | Duration) -> None:
         """Wait for ``duration`` seconds of this clock."""
-        seconds = duration.to_sec() if isinstance(duration, Duration) else duration
-        await self.wait_until(await self.begin() + round(seconds * 1e9))
+        nanoseconds = _nanoseconds(duration)
+        await self.wait_until(await self.begin() + nanoseconds)
 
     def rate(self, hz: float) -> Rate:
         """Gives the time, ``hz`` times a second, until the node is closed."""
-        return Rate(self, hz)
+        if not 0 < hz < math.inf or not math.isfinite(period := 1e9 / float(hz)):
+            raise ValueError(f"a rate must be positive, got {hz!r}")
+        return Rate(self, round(period))
 
     def steady(self) -> int:
         """What waiting goes by. Not the wall clock, which can be set."""
@@ -126,11 +143,13 @@ class Rate:
 
     # Not a generator: the first cancellation, or a time limit of one tick, would end that.
 
-    def __init__(self, clock: Clock, hz: float) -> None:
-        if not hz > 0:
-            raise ValueError(f"a rate must be positive, got {hz!r}")
+    def __init__(self, clock: Clock, period: int) -> None:
+        self.missed = 0
+        """Ticks that were skipped so far. Those of the latest pause are counted when the
+        next tick is asked for."""
         self._clock = clock
-        self._period = round(1e9 / hz)
+        self._period = max(1, period)
+        self._is_simulated = clock.is_simulated
         self._tick: int | None = None
         """When the period that is waited for, or that runs, has begun or will begin."""
         self._was_given = False
@@ -145,12 +164,7 @@ class Rate:
             clock.check()
             if self._has_ended:
                 raise StopAsyncIteration
-            if self._tick is None:
-                self._tick = await clock.begin() + self._period
-            elif self._was_given:
-                self._tick = self._next(self._tick)
-            self._was_given = False
-            await clock.wait_until(self._tick)
+            await self._wait()
             clock.check()  # no tick for a node whose roles are closed already
         except ClosedError:
             raise StopAsyncIteration from None
@@ -161,15 +175,31 @@ class Rate:
         """End the iteration. There is no need to: nothing is held."""
         self._has_ended = True
 
+    async def _wait(self) -> None:
+        clock = self._clock
+        while True:
+            if self._is_simulated is not clock.is_simulated:  # another time: begin again
+                self._is_simulated = clock.is_simulated
+                self._tick = None
+            if self._tick is None:
+                self._tick = await clock.begin() + self._period
+            elif self._was_given:
+                self._tick = self._next(self._tick)
+            self._was_given = False
+            await clock.wait_until(self._tick)
+            if self._is_simulated is clock.is_simulated:
+                return
+
     def _next(self, tick: int) -> int:
         clock, period = self._clock, self._period
         now = clock.steady()
-        if now < tick - period:  # a jump backwards: a new phase
+        if now < tick:  # a jump backwards: a new phase
             tick = now
         missed = (now - tick) // period
         if missed == 1 and not clock.is_simulated:
             missed = 0
-        return tick + period * max(1, missed + 1)
+        self.missed += missed
+        return tick + period * (missed + 1)
 
 
 class Timer:
@@ -183,11 +213,11 @@ class Timer:
         *,
         oneshot: bool,
     ) -> None:
-        seconds = period.to_sec() if isinstance(period, Duration) else period
-        if not seconds > 0:
+        nanoseconds = _nanoseconds(period)
+        if not nanoseconds > 0:
             raise ValueError(f"the period of a timer must be positive, got {period!r}")
         self._node = node
-        self._seconds = seconds
+        self._rate = Rate(node._clock, nanoseconds)
         self._callback = callback
         self._oneshot = oneshot
         self._task = node._spawn(self._run, name=f"{node.name} timer")
@@ -197,7 +227,7 @@ class Timer:
         self._task.cancel()
 
     async def _run(self) -> None:
-        async for now in self._node.rate(1 / self._seconds):
+        async for now in self._rate:
             try:
                 result = self._callback(now)
                 if asyncio.iscoroutine(result) or asyncio.isfuture(result):
@@ -206,3 +236,12 @@ class Timer:
                 self._node._user_error(error, "the callback of a timer")
             if self._oneshot:
                 return
+
+
+def _nanoseconds(duration: float | Duration) -> int:
+    """To the nearest one; exactly for a :class:`~aioros1.Duration`."""
+    if isinstance(duration, Duration):
+        return duration.to_nsec()
+    if not math.isfinite(duration):
+        raise ValueError(f"a time to wait must be finite, got {duration!r}")
+    return Duration(duration).to_nsec()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 import math
 import os
 from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
@@ -19,11 +18,13 @@ from aioros1.graph import Graph
 from aioros1.heartbeat import Heartbeat
 from aioros1.identity import Identity
 from aioros1.idl import MessageStore, default_store
+from aioros1.logger_levels import LoggerLevels
 from aioros1.master_proxy import MasterProxy
 from aioros1.net.allow import AllowList
 from aioros1.net.hosts import uri_host
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
+from aioros1.node_log import NodeLog
 from aioros1.options import (
     LOCAL_TRANSPORTS,
     Limits,
@@ -37,7 +38,7 @@ from aioros1.param_calls import ParamCalls
 from aioros1.peer import NodeProxy
 from aioros1.role import NodeStats, Role
 from aioros1.roles import Roles
-from aioros1.rosout import Rosout, logger_name, serve_logger_levels
+from aioros1.rosout import Rosout
 from aioros1.service_calls import ServiceCalls
 from aioros1.slave_api import SlaveApi
 from aioros1.supervisor import Supervisor
@@ -72,8 +73,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     which then count more than the environment and less than arguments (``__name:=``,
     ``__ns:=``, ``a:=b``, ``_param:=value``). ``remap`` maps names as ``a:=b`` does.
 
-    ``store`` resolves type names. ``rosout`` publishes ``node.log`` on ``/rosout`` and
-    ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
+    ``store`` resolves type names. ``rosout`` publishes ``node.log`` on ``/rosout``; names of
+    loggers (``rosout=["myapp"]``) are published in addition, with all below them, at the
+    levels they have. ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
     ``use_sim_time`` None does what the parameter ``/use_sim_time`` says. ``heartbeat``
     is how often, in seconds, the master is looked after, None for never. ``on_error``
     says what becomes of an exception in a timer's callback: ``"raise"`` closes the node
@@ -101,7 +103,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         remap: Mapping[str, str] | None = None,
         anonymous: bool = False,
         store: MessageStore | None = None,
-        rosout: bool = True,
+        rosout: bool | Collection[str] = True,
         logger_services: bool = True,
         use_sim_time: bool | None = None,
         heartbeat: float | None = 1.0,
@@ -148,7 +150,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._address = OwnAddress(identity.host, bind, identity.master_uri)
         self._remappings = identity.remappings
         self._private_params = identity.private_params
-        self.log = logging.LoggerAdapter(logging.getLogger(logger_name(self.name)), {})
+        self._clock = Clock()
+        self.log = NodeLog(self.name, self._clock.steady)
+        self._logger_levels = LoggerLevels(self)
         self.graph = Graph(self)
 
         self._xmlrpc = XmlRpcClient(timeouts=timeouts, limits=limits)
@@ -157,7 +161,6 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._registrar = MasterProxy(self._xmlrpc, self.master_uri, self.name, timeout=math.inf)
         self._server = XmlRpcServer(SlaveApi(self).methods, limits=limits, allow=self._allow)
         self._acceptor = Acceptor(self)
-        self._clock = Clock()
         self._heartbeat = Heartbeat(self)
         self._events: Broadcast[Event] = Broadcast()
         self._supervisor = Supervisor(
@@ -434,11 +437,11 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             self._clock.simulate()
         if not (master_is_there and await self._introduced()):
             self._spawn(self._introduce_later, name=f"{self.name} introduction")
-        if self.options.rosout:
+        if self.options.rosout is not False:
             self._rosout = Rosout(self)
             self._spawn(self._rosout.run, name=f"{self.name} rosout")
         if self.options.logger_services:
-            self._spawn(serve_logger_levels, self, name=f"{self.name} logger services")
+            self._spawn(self._logger_levels.serve, name=f"{self.name} logger services")
         if self.options.heartbeat is not None:
             self._spawn(self._heartbeat.run, self.options.heartbeat, name=f"{self.name} heartbeat")
 
@@ -490,6 +493,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._state = "closed"
         if self._rosout is not None:
             self._rosout.detach()
+        self._logger_levels.restore()
         self._acceptor.close()
         self._roles.abort()
         self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))

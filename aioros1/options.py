@@ -144,7 +144,7 @@ class NodeOptions:
     argv: tuple[str, ...] | None = None
     remap: Mapping[str, str] | None = None
     anonymous: bool = False
-    rosout: bool = True
+    rosout: bool | Collection[str] = True
     logger_services: bool = True
     use_sim_time: bool | None = None
     heartbeat: float | None = 1.0
@@ -158,11 +158,23 @@ class NodeOptions:
             raise ValueError(f"on_error must be 'raise', 'log' or callable, got {self.on_error!r}")
         if self.heartbeat is not None and not self.heartbeat > 0:
             raise ValueError(f"heartbeat must be positive or None, got {self.heartbeat!r}")
+        _check_rosout(self.rosout)
         known = get_args(LocalTransport)
         named = self.local_transports
         if isinstance(named, str) or any(each not in known for each in named):
             choices = ", ".join(map(repr, known))
             raise ValueError(f"local_transports must be some of {choices}, got {named!r}")
+
+
+def _check_rosout(rosout: object) -> None:
+    if isinstance(rosout, bool):
+        return
+    if isinstance(rosout, str) or not isinstance(rosout, Collection):
+        raise ValueError(f"rosout must be True, False or names of loggers, got {rosout!r}")
+    for name in rosout:
+        if not isinstance(name, str) or name in ("", "root"):
+            # All that anybody in the process logs: not for the graph to hear, nor to set.
+            raise ValueError(f"rosout must name loggers other than the root, got {name!r}")
 
 
 def check_queue(queue_size: int, overflow: str) -> None:

@@ -205,11 +205,15 @@ class Roles:
             self._node.log.warning("closed without having told everybody in %s s", timeout)
 
     async def _close_roles(self) -> None:
-        roles = tuple(self.open)
+        rosout = self._node._rosout
+        roles = tuple(role for role in self.open if rosout is None or not rosout.uses(role))
         results = await asyncio.gather(*(role.close() for role in roles), return_exceptions=True)
         for role, result in zip(roles, results, strict=True):
             if isinstance(result, Exception):
                 self._node._report(result, f"closing {role}")
+        if rosout is not None:
+            # Last, for what those have to say whose roles have ended now.
+            await rosout.finish()
 
     async def _end(self, *, only_unfinished: bool = False) -> None:
         ending = [

@@ -1,127 +1,166 @@
-"""A node's log records on ``/rosout``, and the two services that set its log levels."""
+"""Log records on ``/rosout``."""
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import logging
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from aioros1.errors import ClosedError, MasterError, RosError
+from aioros1.errors import ClosedError, MasterError
+from aioros1.logger_levels import ros_level
 from aioros1.time import Time
 
 if TYPE_CHECKING:
     from aioros1.node import Node
     from aioros1.publisher import Publisher
 
-__all__ = ["LEVELS", "Rosout", "logger_name", "serve_logger_levels"]
-
-LEVELS = {
-    "debug": (logging.DEBUG, 1),
-    "info": (logging.INFO, 2),
-    "warn": (logging.WARNING, 4),
-    "error": (logging.ERROR, 8),
-    "fatal": (logging.CRITICAL, 16),
-}
-"""ROS's name of a level, Python's number and the number in ``rosgraph_msgs/Log``."""
+__all__ = ["Rosout"]
 
 _RETRY = 1.0
 
+_WAITING = 10_000
+"""Records that wait to be published, at the most: of threads that log while the event loop
+is busy, and of a node without a master."""
 
-def logger_name(node_name: str) -> str:
-    """The name of a node's logger: ``ros.arm.driver`` for ``/arm/driver``."""
-    return "ros" + node_name.replace("/", ".")
+_FIRST_SUBSCRIBER = 1.0
+"""Seconds that the first records wait for somebody who wants them."""
 
 
 class Rosout(logging.Handler):
-    """Publishes what a node's logger is given.
+    """Publishes what the logger of a node is given, and the loggers that it was told.
 
-    Records wait, the newest hundred of them, until the topic is advertised; a node does
-    not wait for that with its start.
+    What is logged in the loop of the node is published at once, what other threads log as
+    soon as the loop comes to it. The first records wait until the topic is advertised and
+    has a subscriber; a node does not wait for that with its start.
     """
 
     def __init__(self, node: Node) -> None:
         super().__init__()
         self._node = node
-        self._early: deque[logging.LogRecord] = deque(maxlen=100)
+        self._loop = asyncio.get_running_loop()
         self._publisher: Publisher[Any] | None = None
-        logger = node.log.logger
-        self._level = logger.level
-        if logger.level == logging.NOTSET:
+        self._waiting: deque[dict[str, Any]] = deque(maxlen=_WAITING)
+        self._is_ready = False
+        self._is_publishing = False
+        self._is_scheduled = False
+        own = node.log.logger
+        if own.level == logging.NOTSET:
             # As rosout has it; what else the application shows is up to its handlers.
-            logger.setLevel(logging.INFO)
-        logger.addHandler(self)
+            node._logger_levels.set(own, logging.INFO)
+        chosen = node.options.rosout
+        names = () if isinstance(chosen, bool) else chosen
+        loggers = dict.fromkeys([own, *map(logging.getLogger, names)])
+        # One that hands its records on to another of them is heard there.
+        self._loggers = [each for each in loggers if not _reaches(each, loggers)]
+        for logger in self._loggers:
+            logger.addHandler(self)
 
     def detach(self) -> None:
-        """Leave the logger as it was."""
-        logger = self._node.log.logger
-        if self in logger.handlers:
+        """Leave the loggers as they were."""
+        for logger in self._loggers:
             logger.removeHandler(self)
-            logger.setLevel(self._level)
+        self._is_ready = False
+        super().close()
 
     async def run(self) -> None:
-        """Advertise ``/rosout`` as soon as the master lets us."""
-        while self._publisher is None:
+        """Advertise ``/rosout`` as soon as the master lets us, and publish what waits."""
+        publisher = None
+        while publisher is None:
             try:
-                self._publisher = await self._node.advertise(
+                publisher = await self._node.advertise(
                     "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
                 )
             except MasterError:
                 await self._node._pause(_RETRY)
-        while self._early:
-            self.emit(self._early.popleft())
+        self._publisher = publisher
+        with contextlib.suppress(TimeoutError):
+            await publisher.wait_for_subscribers(timeout=_FIRST_SUBSCRIBER)
+        self._is_ready = True
+        self._publish_waiting()
+
+    def uses(self, role: object) -> bool:
+        """Whether it is the publisher of ``/rosout``."""
+        return role is self._publisher
+
+    async def finish(self) -> None:
+        """Publish what waits, and close the topic."""
+        if self._publisher is not None:
+            self._is_ready = True
+            self._publish_waiting()
+            await self._publisher.close()
 
     def emit(self, record: logging.LogRecord) -> None:
-        publisher = self._publisher
-        if publisher is None:
-            self._early.append(record)
-            return
         try:
-            publisher.publish(
-                header={"stamp": Time.from_nsec(self._node._clock.nanoseconds())},
-                level=_level(record.levelno),
-                name=self._node.name,
-                msg=self.format(record),
-                file=record.pathname,
-                function=record.funcName or "",
-                line=record.lineno,
-                topics=sorted(self._node._roles.publications),
-            )
-        except ClosedError:
-            pass  # the last words of a node that is closing go elsewhere
+            if getattr(record, "ros_node", self._node.name) != self._node.name:
+                return  # of a node whose name, and so its logger, is below ours
+            fields = self._fields(record)
+            is_here = _running_loop() is self._loop
+            if is_here and self._is_publishing:
+                return  # it is about the publishing of another record, and would never end
+            self._waiting.append(fields)
+            if self._is_ready:
+                if is_here:
+                    self._publish_waiting()
+                else:
+                    self._schedule()
         except Exception:  # a record that cannot be formatted, as every handler does
             self.handleError(record)
 
+    def _fields(self, record: logging.LogRecord) -> dict[str, Any]:
+        """What does not change any more, whatever the thread does next."""
+        return {
+            "header": {"stamp": Time.from_nsec(self._node._clock.nanoseconds())},
+            "level": ros_level(record.levelno),
+            "name": self._node.name,
+            "msg": _sendable(self.format(record)),
+            # Records that were made by hand may have anything there.
+            "file": _sendable(str(record.pathname)),
+            "function": _sendable(str(record.funcName or "")),
+            "line": record.lineno if record.lineno in range(1 << 32) else 0,
+        }
 
-async def serve_logger_levels(node: Node) -> None:
-    """Provide ``~get_loggers`` and ``~set_logger_level`` as soon as the master lets us."""
+    def _schedule(self) -> None:
+        if not self._is_scheduled:
+            self._is_scheduled = True
+            # The loop may be closed, and the node never was.
+            with contextlib.suppress(RuntimeError):
+                self._loop.call_soon_threadsafe(self._publish_waiting)
 
-    def get_loggers(request: Any) -> dict[str, Any]:
-        level = _level(node.log.logger.getEffectiveLevel())
-        names = [name for name, (_, number) in LEVELS.items() if number == level]
-        return {"loggers": [{"name": node.log.logger.name, "level": names[0]}]}
-
-    def set_logger_level(request: Any) -> None:
-        level = request.level.lower()
-        if level not in LEVELS:
-            raise RosError(f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}")
-        logging.getLogger(request.logger).setLevel(LEVELS[level][0])
-
-    services = [
-        ("~get_loggers", "roscpp/GetLoggers", get_loggers),
-        ("~set_logger_level", "roscpp/SetLoggerLevel", set_logger_level),
-    ]
-    for name, srv, handler in services:
-        while True:
-            with contextlib.suppress(MasterError):
-                await node.advertise_service(name, srv, handler)
-                break
-            await node._pause(_RETRY)
+    def _publish_waiting(self) -> None:
+        """In the loop only."""
+        self._is_scheduled = False
+        publisher = self._publisher
+        if publisher is None or self._is_publishing or not self._is_ready:
+            return
+        self._is_publishing = True
+        try:
+            while self._waiting:
+                topics = sorted(self._node._roles.publications)
+                publisher.publish(topics=topics, **self._waiting.popleft())
+        except ClosedError:
+            self._waiting.clear()  # the last words of a node that is closed go elsewhere
+        finally:
+            self._is_publishing = False
 
 
-def _level(number: int) -> int:
-    """The level of ROS for one of Python's, which may lie in between."""
-    for python, ros in reversed(LEVELS.values()):
-        if number >= python:
-            return ros
-    return 1
+def _reaches(logger: logging.Logger, others: dict[logging.Logger, None]) -> bool:
+    """Whether the records of ``logger`` are handed on to one of ``others``."""
+    while logger.propagate and logger.parent is not None:
+        logger = logger.parent
+        if logger in others:
+            return True
+    return False
+
+
+def _running_loop() -> asyncio.AbstractEventLoop | None:
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None
+
+
+def _sendable(text: str) -> str:
+    """The text, with escapes for what is no character."""
+    return text if text.isascii() else text.encode("utf-8", "backslashreplace").decode()

@@ -25,9 +25,28 @@ def _float_to_nsec(secs: float) -> int:
     return whole * _SECOND + round((secs - whole) * _SECOND)
 
 
-def _is_number(value: Any) -> bool:
-    """Numbers that are no subclasses of Python's own: NumPy's, fractions."""
-    return hasattr(value, "__float__")
+def _ratio(value: Any) -> tuple[int, int] | None:
+    """A number as the fraction that it is exactly; None if it is none.
+
+    Also of those that are no subclasses of Python's own: NumPy's, whose whole numbers
+    overflow in silence, and fractions.
+    """
+    if (whole := getattr(value, "__index__", None)) is not None:
+        return whole(), 1
+    if not hasattr(value, "__float__"):
+        return None
+    numerator, denominator = (
+        value if hasattr(value, "as_integer_ratio") else float(value)
+    ).as_integer_ratio()
+    return int(numerator), int(denominator)
+
+
+def _divide(numerator: int, denominator: int) -> int:
+    """The nearest whole number, the even one of two that are as near."""
+    if denominator < 0:
+        numerator, denominator = -numerator, -denominator
+    quotient, rest = divmod(numerator, denominator)
+    return quotient + (2 * rest + (quotient & 1) > denominator)
 
 
 class _TimeValue:
@@ -66,7 +85,7 @@ class _TimeValue:
     @classmethod
     def from_sec(cls: type[_V], secs: float) -> _V:
         """The value for a number of seconds, rounded to the nearest nanosecond."""
-        return cls.from_nsec(_float_to_nsec(secs))
+        return cls(secs)
 
     @classmethod
     def from_nsec(cls: type[_V], nsecs: int) -> _V:
@@ -224,9 +243,10 @@ class Duration(_TimeValue):
         return Duration(0, abs(self.to_nsec()))
 
     def __mul__(self, factor: float) -> Duration:
-        if _is_number(factor):
-            return Duration(0, round(self.to_nsec() * factor))
-        return NotImplemented
+        """By a number: a duration, to the nearest nanosecond."""
+        if (ratio := _ratio(factor)) is None:
+            return NotImplemented
+        return Duration(0, _divide(self.to_nsec() * ratio[0], ratio[1]))
 
     __rmul__ = __mul__
 
@@ -238,12 +258,9 @@ class Duration(_TimeValue):
         """By a number: a duration, to the nearest nanosecond. By a duration: the ratio."""
         if isinstance(other, Duration):
             return self.to_nsec() / other.to_nsec()
-        if isinstance(other, int):
-            # In whole numbers: a float would be inexact beyond 104 days.
-            return Duration(0, (2 * self.to_nsec() + other) // (2 * other))
-        if _is_number(other):
-            return Duration(0, round(self.to_nsec() / other))
-        return NotImplemented
+        if (ratio := _ratio(other)) is None:
+            return NotImplemented
+        return Duration(0, _divide(self.to_nsec() * ratio[1], ratio[0]))
 
     @overload
     def __floordiv__(self, other: Duration) -> int: ...
@@ -253,9 +270,9 @@ class Duration(_TimeValue):
         """By a number: a duration of whole seconds, as in rospy. By a duration: how often."""
         if isinstance(other, Duration):
             return self.to_nsec() // other.to_nsec()
-        if _is_number(other):
-            return Duration(int(self.to_nsec() // (other * _SECOND)))
-        return NotImplemented
+        if (ratio := _ratio(other)) is None:
+            return NotImplemented
+        return Duration(self.to_nsec() * ratio[1] // (ratio[0] * _SECOND))
 
     def __mod__(self, other: Duration) -> Duration:
         if isinstance(other, Duration):

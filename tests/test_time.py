@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import pickle
 import time
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from aioros1.errors import SerializationError
+from aioros1.idl import load_msg
 from aioros1.time import Duration, Time
 
 NANO = 1_000_000_000
@@ -230,3 +233,68 @@ class TestArithmetic:
                 Duration(1) / zero
             with pytest.raises(ZeroDivisionError):
                 Duration(1) // zero
+
+
+class TestExactness:
+    """Against fractions, which round nothing."""
+
+    @given(st.floats(0, 2**32, exclude_max=True))
+    def test_from_sec_is_the_nearest_nanosecond(self, secs: float) -> None:
+        for value in (Time.from_sec(secs), Duration.from_sec(-secs), Time(secs)):
+            error = abs(Fraction(value.to_nsec(), NANO)) - Fraction(secs)
+            assert abs(error) * NANO <= Fraction(1, 2) + Fraction(1, 10**6)
+
+    @given(st.integers(0, 2**32 - 1))
+    def test_from_sec_of_whole_seconds(self, secs: int) -> None:
+        assert Time.from_sec(secs).to_nsec() == Time.from_sec(float(secs)).to_nsec() == secs * NANO
+
+    def test_from_sec_of_short_floats(self) -> None:
+        tenth = np.float32(0.1)
+        assert Duration.from_sec(tenth) == Duration(tenth) == Duration(0, 100_000_001)
+
+    @given(durations, st.floats(-1e6, 1e6))
+    def test_times_and_by_a_float(self, d: Duration, number: float) -> None:
+        assert (d * number).to_nsec() == round(d.to_nsec() * Fraction(number))
+        if number and abs(number) > 1e-6:
+            assert (d / number).to_nsec() == round(d.to_nsec() / Fraction(number))
+            assert (d // number).to_nsec() == d.to_nsec() // (Fraction(number) * NANO) * NANO
+
+    @given(durations)
+    def test_one_changes_nothing(self, d: Duration) -> None:
+        for one in (1, 1.0, True, np.int64(1), np.float64(1), Fraction(1)):
+            assert d * one == d / one == d
+
+    @given(durations, st.integers(-(2**31), 2**31 - 1))
+    def test_numbers_of_numpy_do_not_overflow(self, d: Duration, n: int) -> None:
+        assert d * np.int64(n) == d * np.int32(n) == d * n
+        if n:
+            assert d / np.int32(n) == d / n
+            assert d // np.int32(n) == d // n
+
+    @pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+    def test_numbers_that_are_none(self, bad: float) -> None:
+        with pytest.raises((ValueError, OverflowError)):
+            Duration(1) * bad
+        with pytest.raises((ValueError, OverflowError)):
+            Duration(1) / bad
+
+    @given(times, durations)
+    def test_equal_ones_have_one_hash(self, t: Time, d: Duration) -> None:
+        assert hash(Time(t.secs, t.nsecs)) == hash(t)
+        assert hash(Duration(d.secs + 1, d.nsecs - NANO)) == hash(d)
+        assert 0 <= d.nsecs < NANO
+        assert d.secs * NANO + d.nsecs == d.to_nsec()
+
+    @pytest.mark.parametrize(
+        "value", [Time(2**32), Duration(2**31), Duration(-(2**31)) - Duration(0, 1)]
+    )
+    def test_what_has_no_form_on_the_wire_is_refused_there(self, value: Any) -> None:
+        cls = load_msg(f"std_msgs/{type(value).__name__}")
+        with pytest.raises(SerializationError, match="data"):
+            cls(data=value).to_bytes()
+
+    @given(times, durations)
+    def test_what_has_one_survives_it(self, t: Time, d: Duration) -> None:
+        for value in (t, d):
+            cls = load_msg(f"std_msgs/{type(value).__name__}")
+            assert cls.from_bytes(cls(data=value).to_bytes()).data == value

@@ -1,0 +1,111 @@
+"""The levels of ROS and of :mod:`logging`, and the services that tell and set them."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+from typing import TYPE_CHECKING, Any
+
+from aioros1.errors import MasterError, RosError
+
+if TYPE_CHECKING:
+    from aioros1.node import Node
+
+__all__ = ["LEVELS", "LoggerLevels", "ros_level"]
+
+LEVELS = {
+    "debug": (logging.DEBUG, 1),
+    "info": (logging.INFO, 2),
+    "warn": (logging.WARNING, 4),
+    "error": (logging.ERROR, 8),
+    "fatal": (logging.CRITICAL, 16),
+}
+"""ROS's name of a level, Python's number and the number in ``rosgraph_msgs/Log``."""
+
+_RETRY = 1.0
+
+
+def ros_level(number: int) -> int:
+    """The level of ROS for one of Python's, which may lie in between."""
+    for python, ros in reversed(LEVELS.values()):
+        if number >= python:
+            return ros
+    return 1
+
+
+class LoggerLevels:
+    """The levels of the loggers that are a node's business: its own, those in ``rosout``
+    of its options, and all below these.
+
+    Who sets a level here, from far away or for ``/rosout``, does so while the node is open.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._changed: dict[logging.Logger, tuple[int, int]] = {}
+        """The level before the first change, and that of the last."""
+
+    def set(self, logger: logging.Logger, level: int) -> None:
+        """Change a level until :meth:`restore`."""
+        before, _ = self._changed.get(logger, (logger.level, level))
+        self._changed[logger] = before, level
+        logger.setLevel(level)
+
+    def restore(self) -> None:
+        """Undo the changes, but for what the application has changed meanwhile."""
+        while self._changed:
+            logger, (before, ours) = self._changed.popitem()
+            if logger.level == ours:
+                logger.setLevel(before)
+
+    async def serve(self) -> None:
+        """Provide ``~get_loggers`` and ``~set_logger_level`` as soon as the master lets us."""
+        services = [
+            ("~get_loggers", "roscpp/GetLoggers", self._get_loggers),
+            ("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level),
+        ]
+        for name, srv, handler in services:
+            while True:
+                with contextlib.suppress(MasterError):
+                    await self._node.advertise_service(name, srv, handler)
+                    break
+                await self._node._pause(_RETRY)
+
+    def _is_ours(self, name: str) -> bool:
+        return any(name == top or name.startswith(f"{top}.") for top in self._tops())
+
+    def _tops(self) -> list[str]:
+        chosen = self._node.options.rosout
+        return [self._node.log.logger.name, *(() if isinstance(chosen, bool) else chosen)]
+
+    def _get_loggers(self, request: Any) -> dict[str, Any]:
+        tops = [logging.getLogger(name) for name in self._tops()]
+        # Logging keeps placeholders for names that stand only within longer ones.
+        others = [
+            logger
+            for name, logger in sorted(logging.Logger.manager.loggerDict.copy().items())
+            if isinstance(logger, logging.Logger) and self._is_ours(name)
+        ]
+        return {
+            "loggers": [
+                {"name": logger.name, "level": _level_name(logger.getEffectiveLevel())}
+                for logger in dict.fromkeys([*tops, *others])
+            ]
+        }
+
+    def _set_logger_level(self, request: Any) -> None:
+        level = request.level.lower()
+        if level not in LEVELS:
+            raise RosError(f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}")
+        # One that does not exist yet is made, as by rospy and roscpp: its user may come later.
+        if not self._is_ours(request.logger):
+            raise RosError(
+                f"unknown logger {request.logger!r}, expected one of {', '.join(self._tops())}, "
+                "or one below"
+            )
+        self.set(logging.getLogger(request.logger), LEVELS[level][0])
+
+
+def _level_name(number: int) -> str:
+    level = ros_level(number)
+    return next(name for name, (_, ros) in LEVELS.items() if ros == level)
