@@ -34,6 +34,9 @@ _AT_ONCE = 6
 answers none of them must leave connections for others, which ask whether it is there."""
 
 
+_LAST_TURNS = 10
+
+
 class Shared(Protocol):
     """What roles share: one entry of a table, registered once."""
 
@@ -212,7 +215,10 @@ class Roles:
             if isinstance(result, Exception):
                 self._node._report(result, f"closing {role}")
         if rosout is not None:
-            # Last, for what those have to say whose roles have ended now.
+            # Last, for what those have to say whose loops have ended now. There may have been
+            # nothing to wait for so far: they get some turns for the ends of their blocks.
+            for _ in range(_LAST_TURNS):
+                await asyncio.sleep(0)
             await rosout.finish()
 
     async def _end(self, *, only_unfinished: bool = False) -> None:

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
+import signal
+import sys
 import threading
+from pathlib import Path
 
 import pytest
 
 import aioros1
 
 LOG = "rosgraph_msgs/Log"
+ROOT = Path(__file__).parent.parent
 
 
 @pytest.fixture
@@ -176,6 +181,42 @@ async def test_what_is_logged_while_the_node_closes_arrives(make_node, heard):
     assert texts == [f"before {i}" for i in range(50)] + [
         "the loop has ended",
         "and its subscriber is closed",
+    ]
+
+
+SCRIPT = """
+import asyncio, aioros1
+async def tick(node):
+    try:
+        async for now in node.rate(1000):
+            node.log.once.info("ready")
+    finally:
+        node.log.info("the rate has ended")
+async def main(node):
+    try:
+        async with asyncio.TaskGroup() as group:
+            group.create_task(tick(node))
+    finally:
+        node.log.info("main has ended")
+aioros1.run(main, "script")
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="ends a program by a signal")
+async def test_what_a_script_says_in_finally_after_a_signal_arrives(heard, master):
+    process = await asyncio.create_subprocess_exec(
+        *(sys.executable, "-W", "error", "-c", SCRIPT),
+        env={"ROS_MASTER_URI": master.uri, "PYTHONPATH": str(ROOT), "PATH": ""},
+        stderr=asyncio.subprocess.PIPE,
+    )
+    assert (await heard.get(timeout=15)).msg == "ready"
+    process.send_signal(signal.SIGINT)
+    _, errors = await asyncio.wait_for(process.communicate(), 15)
+    assert (errors, process.returncode) == (b"", 0)
+    texts = await texts_until(heard, "main has ended")
+    assert [text for text in texts if text.endswith("ended")] == [
+        "the rate has ended",
+        "main has ended",
     ]
 
 

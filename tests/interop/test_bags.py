@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 from pathlib import Path
+
+from aioros1 import Duration
 
 from .ours import take
 from .processes import until
@@ -82,6 +85,39 @@ async def test_the_clock_of_a_bag(under_rosmaster: World) -> None:
         async with asyncio.timeout(15):
             await sleeper
         assert info["start"] - 1 < node.now().to_sec() < info["end"] + 1
+
+
+async def test_the_clock_of_a_bag_drives_rates_and_timers(under_rosmaster: World) -> None:
+    world = under_rosmaster
+    joints, text = world.unique("joints"), world.unique("text")
+    bag = await record(world, joints, text)
+    info = await world.parse_yaml((await world.run("rosbag", "info", "--yaml", str(bag))).stdout)
+    called: list[float] = []
+    async with world.node("simulated", use_sim_time=True) as node:
+        timer = node.timer(Duration(0, 10_000_000), lambda now: called.append(now.to_sec()))
+        rate = node.rate(100)
+        ticks: list[float] = []
+
+        async def tick() -> None:
+            async for now in rate:
+                ticks.append(now.to_sec())
+
+        ticking = asyncio.create_task(tick())
+        play = ("rosbag", "play", "-q", "--clock", "--hz=200", "-r", "0.1", str(bag))
+        async with asyncio.timeout(40):
+            for _ in range(2):  # the second time the clock jumps back to the start
+                before = len(ticks)
+                player = world.start(*play)
+                result = await player.wait()
+                assert result.code == 0, result.text
+                assert len(ticks) > before
+        ticking.cancel()
+        timer.cancel()
+        await asyncio.gather(ticking, return_exceptions=True)
+    for times in (ticks, called):
+        steps = [later - earlier for earlier, later in itertools.pairwise(times)]
+        assert all(info["start"] - 1 < now < info["end"] + 1 for now in times)
+        assert sum(step < 0 for step in steps) == 1
 
 
 async def test_a_compressed_bag_of_a_rospy_talker(under_rosmaster: World) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 
 from .ours import take_until
@@ -61,3 +62,52 @@ async def test_a_level_set_over_the_logger_service(under_rosmaster: World) -> No
         assert "information under debug" in own
         assert "information under error" not in own
     assert logging.getLogger().level == logging.WARNING
+
+
+async def test_rosout_as_rostopic_shows_it(under_rosmaster: World) -> None:
+    """Fields of every kind, with the loggers of the application, up to the end of the node."""
+    world = under_rosmaster
+    log = logging.getLogger("interop_app.arm")
+    async with world.node("shown", rosout=["interop_app"]) as node:
+        echo = world.start("rostopic", "echo", "/rosout")
+
+        def heard() -> bool:
+            node.log.info("ready")
+            return 'msg: "ready"' in echo.stdout
+
+        await until(heard, what=echo.report)
+        await asyncio.to_thread(log.error, "the arm is %s", "stuck")
+        try:
+            raise LookupError("no such joint")
+        except LookupError:
+            node.log.exception("cannot move")
+        for _ in range(3):
+            node.log.once.warning("only once")
+        node.log.info("the last words")
+    await echo.wait_text(r'msg: "the last words"')
+    text = echo.stdout
+    assert 'msg: "the arm is stuck"' in text
+    assert "LookupError: no such joint" in text
+    assert text.count('msg: "only once"') == 1
+    assert 'function: "test_rosout_as_rostopic_shows_it"' in text
+    assert f'file: "{__file__}"' in text
+    assert "/rosout" in text
+
+
+async def test_rosservice_is_told_why(under_rosmaster: World) -> None:
+    world = under_rosmaster
+    async with world.node("strict", rosout=["interop_strict"]) as node:
+        await node.wait_for_service("~set_logger_level", timeout=15)
+        listed = await world.run("rosservice", "call", "/strict/get_loggers")
+        assert 'name: "ros.strict"' in listed.stdout
+        assert 'name: "interop_strict"' in listed.stdout
+        setter = ("rosservice", "call", "/strict/set_logger_level")
+        await world.run(*setter, "{logger: interop_strict, level: Debug}")
+        assert logging.getLogger("interop_strict").level == logging.DEBUG
+        for request, why in (
+            ("{logger: interop_strict, level: loud}", "unknown level 'loud'"),
+            ("{logger: root, level: debug}", "unknown logger 'root'"),
+        ):
+            refused = await world.run(*setter, request, code=None)
+            assert why in refused.text
+    assert logging.getLogger("interop_strict").level == logging.NOTSET
