@@ -44,7 +44,7 @@ def test_once_for_each_place(hand, caplog):
     for number in range(3):
         hand.log.once.warning("first %d", number)
         hand.log.once.info("second %d", number)
-        hand.log.once.log(logging.ERROR, "third"), hand.log.once.error("same line")  # noqa: B018
+        _ = hand.log.once.log(logging.ERROR, "third"), hand.log.once.error("same line")
     assert caplog.messages == ["first 0", "second 0", "third", "same line"]
     assert {record.ros_node for record in caplog.records} == {"/test/log"}
 
