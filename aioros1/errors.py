@@ -26,6 +26,7 @@ Waiting too long is the builtin :class:`TimeoutError`; reading an empty queue is
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from os import PathLike
 
 __all__ = [
@@ -62,7 +63,21 @@ class MessageError(RosError):
 
 
 class MessageNotFoundError(MessageError, LookupError):
-    """No definition of that type in any of the places searched."""
+    """No definition of that type in any of the places searched.
+
+    ``places`` are the directories, in this order; None when the definition should have
+    been elsewhere.
+    """
+
+    def __init__(self, text: str, places: Sequence[str] | None = None) -> None:
+        super().__init__(text, places)
+        self.text = text
+        self.places = places
+
+    def __str__(self) -> str:
+        if self.places is None:
+            return self.text
+        return f"{self.text}; searched: {', '.join(self.places) or 'no directory'}"
 
 
 class MessageSpecError(MessageError):

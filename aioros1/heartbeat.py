@@ -31,6 +31,8 @@ class Heartbeat:
         self._is_lost = False
         self._is_stale = False
         self._is_stopped = False
+        self.refusal: MasterError | None = None
+        """Why :meth:`greet` has failed, if it has."""
 
     def stop(self) -> None:
         """Register nothing again from now on."""
@@ -45,7 +47,8 @@ class Heartbeat:
         """Ask once, without consequences; whether the master is there."""
         try:
             self._identity = await self._ask()
-        except MasterError:
+        except MasterError as error:
+            self.refusal = error
             return False
         return True
 

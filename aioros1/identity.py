@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Self
+from ipaddress import ip_address
+from typing import Any, Self, TypeVar
 from urllib.parse import urlsplit
 
 from aioros1 import names
+from aioros1.errors import InvalidNameError
 from aioros1.private_params import parse_value
 
-__all__ = ["DEFAULT_MASTER_URI", "Identity"]
+__all__ = ["DEFAULT_MASTER_URI", "Identity", "master_uri_of"]
 
 DEFAULT_MASTER_URI = "http://localhost:11311"
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,50 +54,121 @@ class Identity:
         roslaunch replaces, and then it is not made anonymous.
 
         Raises :class:`~aioros1.InvalidNameError`, and :class:`ValueError` for a master
-        URI or a parameter value that cannot be read.
+        URI, a host or a parameter value that cannot be read; both name the word or the
+        variable that it comes from.
         """
         arguments = names.parse_args(argv)
-        special, environ = arguments.special, os.environ
-        base_name = names.validate_base_name(special.get("__name", name))
-        if anonymous and "__name" not in special:
-            base_name = names.anonymous_name(base_name)
-        namespace = names.normalize_namespace(
-            _first(namespace, special.get("__ns"), environ.get("ROS_NAMESPACE")) or "/"
+        special = _Settings(arguments.special)
+        base_name = special.read("__name", names.validate_base_name)
+        if base_name is None:
+            base_name = names.validate_base_name(name)
+            if anonymous:
+                base_name = names.anonymous_name(base_name)
+        namespace = (
+            (names.normalize_namespace(namespace) if namespace else None)
+            or special.read("__ns", names.normalize_namespace)
+            or _ENVIRONMENT.read("ROS_NAMESPACE", names.normalize_namespace)
+            or "/"
         )
         return cls(
             base_name=base_name,
             namespace=namespace,
-            master_uri=_http_uri(
-                _first(master_uri, special.get("__master"), environ.get("ROS_MASTER_URI"))
-                or DEFAULT_MASTER_URI
+            master_uri=(
+                (_check_uri(master_uri) if master_uri else None)
+                or special.read("__master", _check_uri)
+                or master_uri_of()
             ),
-            host=_first(
-                host,
-                special.get("__hostname"),
-                special.get("__ip"),
-                environ.get("ROS_HOSTNAME"),
-                environ.get("ROS_IP"),
+            host=(
+                (_check_host(host) if host else None)
+                or special.read("__hostname", _check_host)
+                or special.read("__ip", _check_host)
+                or _ENVIRONMENT.read("ROS_HOSTNAME", _check_host)
+                or _ENVIRONMENT.read("ROS_IP", _check_host)
             ),
             remappings=names.resolve_remappings(
                 {**arguments.remappings, **(remap or {})},
                 namespace,
                 names.qualify(namespace, base_name),
             ),
-            private_params={key: parse_value(text) for key, text in arguments.params.items()},
+            private_params=_private_params(arguments.params),
         )
 
 
-def _first(*values: str | None) -> str | None:
-    """The first that is neither None nor empty."""
-    return next((value for value in values if value), None)
+def master_uri_of(uri: str | None = None) -> str:
+    """``uri`` itself, or what ``ROS_MASTER_URI`` says, or the usual one.
+
+    Raises :class:`ValueError` for what is no URI of a master.
+    """
+    if uri:
+        return _check_uri(uri)
+    return _ENVIRONMENT.read("ROS_MASTER_URI", _check_uri) or DEFAULT_MASTER_URI
 
 
-def _http_uri(uri: str) -> str:
+@dataclass(frozen=True, slots=True)
+class _Settings:
+    """Words of a command line, or variables of the environment."""
+
+    values: Mapping[str, str]
+    assign: str = ":="
+
+    def read(self, name: str, check: Callable[[str], T]) -> T | None:
+        """What ``check`` makes of a value; None when it is not set, or to nothing.
+
+        What ``check`` raises names where the value comes from.
+        """
+        value = self.values.get(name)
+        if not value:
+            return None
+        try:
+            return check(value)
+        except ValueError as error:
+            kind = InvalidNameError if isinstance(error, InvalidNameError) else ValueError
+            raise kind(f"{name}{self.assign}{value}: {error}") from None
+
+
+_ENVIRONMENT = _Settings(os.environ, "=")
+
+
+def _private_params(words: Mapping[str, str]) -> dict[str, Any]:
+    params = {}
+    for key, text in words.items():
+        try:
+            params[key] = parse_value(text)
+        except ValueError as error:
+            raise ValueError(f"_{key}:={text}: {error}") from error
+    return params
+
+
+def _check_uri(uri: str) -> str:
     try:
         parts = urlsplit(uri)
-        valid = parts.scheme == "http" and parts.hostname and (parts.port or 1)
+        host = parts.hostname or ""
+        valid = parts.scheme == "http" and _is_host(host) and parts.port != 0
     except ValueError:
         valid = False
     if not valid:
         raise ValueError(f"master URI {uri!r}: expected http://host:port")
     return uri
+
+
+def _check_host(host: str) -> str:
+    if not _is_host(host):
+        raise ValueError(
+            f"host {host!r}: expected a host name or an address like 'robot.local' or '10.0.0.2', "
+            "without a port"
+        )
+    return host
+
+
+def _is_host(host: str) -> bool:
+    """Whether it can be one. Whether it is, only those know whom it is told."""
+    if ":" in host:  # nothing but an IPv6 address, which may have a zone
+        return _is_ipv6(host.partition("%")[0])
+    return host.isprintable() and not any(char in " /?#@[]" for char in host) and bool(host)
+
+
+def _is_ipv6(address: str) -> bool:
+    try:
+        return ip_address(address).version == 6
+    except ValueError:
+        return False

@@ -347,8 +347,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
 
         Raises :class:`TimeoutError` after ``timeout`` seconds.
         """
-        async with deadline(timeout, f"no master at {self.master_uri}"):
+        async with deadline(timeout, f"no master at {self.master_uri}") as limit:
             while not await self._heartbeat.greet():
+                limit.why = self._heartbeat.refusal
                 await self._pause(0.1)
 
     # time

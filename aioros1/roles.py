@@ -19,8 +19,10 @@ from aioros1.registration import Registration, Tell
 from aioros1.role import Role
 from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
 from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
+from aioros1.service_provision import probe, service_class_of, type_of
 from aioros1.subscriber import Subscriber, SubscriberOptions
 from aioros1.subscription import Subscription
+from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
     from aioros1.node import Node
@@ -69,6 +71,8 @@ class Roles:
         self.slots = asyncio.Semaphore(_AT_ONCE)
         """What requests for registrations have to get hold of."""
         self.open: dict[Role, None] = {}  # a set that keeps the order
+        self.probes: set[deadline] = set()
+        """The questions to providers that are on their way."""
         self._node = node
 
     @property
@@ -167,10 +171,18 @@ class Roles:
     ) -> ServiceCaller[Any, Any]:
         node = self._node
         node._check_open()
-        service_class = node.store.resolve_srv(type)
-        return await self._opened(
-            ServiceCaller(node, node.resolve_name(name), service_class, options)
-        )
+        name = node.resolve_name(name)
+        if type == "*":
+            async with deadline(options.timeout, f"service {name}: no answer"):
+                service_class = await service_class_of(node, name)
+        else:
+            service_class = node.store.resolve_srv(type)
+        return await self._opened(ServiceCaller(node, name, service_class, options))
+
+    async def service_type(self, name: str) -> str:
+        self._node._check_open()
+        name = self._node.resolve_name(name)
+        return type_of(name, await probe(self._node, name))
 
     async def subscribe_param(self, key: str, default: Any) -> ParamSubscriber:
         node = self._node
@@ -241,6 +253,8 @@ class Roles:
             subscription.close()
         for role in tuple(self.open):
             role._abort()
+        for limit in self.probes:
+            limit.expire()
         self.open.clear()
 
     def lose_address(self, host: str) -> None:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import os
 import signal
 import sys
 from collections.abc import Callable, Coroutine
 from pathlib import Path
 from typing import Any, TypeVar
 
-from aioros1.errors import ClosedError
-from aioros1.identity import DEFAULT_MASTER_URI
+from aioros1.errors import ClosedError, MasterError
+from aioros1.identity import master_uri_of
+from aioros1.master_proxy import MasterProxy
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.node import Node
 from aioros1.waiting import deadline
@@ -109,15 +109,20 @@ class _Signals:
 async def wait_for_master(uri: str | None = None, *, timeout: float | None = None) -> None:
     """Wait until a master answers at ``uri`` (``ROS_MASTER_URI`` by default).
 
-    Raises :class:`TimeoutError` after ``timeout`` seconds.
+    Raises :class:`TimeoutError` after ``timeout`` seconds, and :class:`ValueError` for
+    what is no URI.
     """
-    uri = uri or os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER_URI
+    uri = master_uri_of(uri)
     client = XmlRpcClient()
     try:
-        async with deadline(timeout, f"no master at {uri}"):
+        master = MasterProxy(client, uri, "/aioros1")
+        async with deadline(timeout, f"no master at {uri}") as limit:
             while True:
-                with contextlib.suppress(OSError):
-                    await client.call(uri, "getPid", "/aioros1")
+                try:
+                    await master.get_pid()
+                except MasterError as error:
+                    limit.why = error
+                else:
                     return
                 await asyncio.sleep(0.1)
     finally:

@@ -8,26 +8,24 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
-from urllib.parse import urlsplit
 
 from aioros1.errors import (
     ClosedError,
     DeserializationError,
     HandshakeError,
-    MasterError,
     MasterUnreachable,
     ServiceError,
-    ServiceNotFound,
     ServiceUnavailable,
 )
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.fields import message_from
 from aioros1.net.backoff import Backoff
 from aioros1.net.service_link import ServiceLink
-from aioros1.net.tcpros import Stream, connect, connection_info, take_over
+from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.role import Role
+from aioros1.service_provision import agree, look_up, probe
 from aioros1.waiting import Waiters, deadline
-from aioros1.wire.handshake import ServiceClient, ServiceOffer
+from aioros1.wire.handshake import ServiceOffer
 from aioros1.wire.service import ANSWER_HEAD, SUCCESS, ServiceFrameError
 
 if TYPE_CHECKING:
@@ -207,10 +205,9 @@ class ServiceCaller(Role, Generic[Q, A]):
         """Whether the service is registered and its provider answers for it."""
         self._check_open()
         try:
-            connection = await self._connect(probe=True)
+            await probe(self._node, self.name)
         except (ServiceError, HandshakeError, MasterUnreachable):
             return False
-        self._drop(connection)
         return True
 
     async def wait_for_service(self, *, timeout: float | None = None) -> None:
@@ -288,34 +285,17 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     # connections
 
-    async def _connect(self, *, probe: bool = False) -> _Connection:
+    async def _connect(self) -> _Connection:
         node = self._node
-        uri = await self._look_up()
-        self.provider_uri = uri
-        host, port = self._address(uri)
+        uri = self.provider_uri = await look_up(node, self.name)
+        stream, header = await agree(
+            node,
+            uri,
+            ServiceOffer(self.name, self.type, self.md5sum),
+            persistent=self.options.persistent,
+            tcp_nodelay=self.options.tcp_nodelay,
+        )
         try:
-            stream = await connect(host, port, node.timeouts)
-        except (OSError, TimeoutError) as error:
-            raise ServiceUnavailable(f"service {self.name}: {error}") from error
-        try:
-            # A probe asks whether the service is there, of whatever type; and so does
-            # rosservice.
-            md5sum = "*" if probe else self.md5sum
-            client = ServiceClient(
-                f"{self.name} at {stream.peer}",
-                node.name,
-                ServiceOffer(self.name, self.type, md5sum),
-                persistent=self.options.persistent and not probe,
-                probe=probe,
-                tcp_nodelay=self.options.tcp_nodelay,
-                max_bytes=node.limits.header_bytes,
-                max_fields=node.limits.header_fields,
-            )
-            stream.writer.write(client.data_to_send())
-            try:
-                await stream.receive_header(client, timeout=node.timeouts.handshake)
-            except (OSError, TimeoutError) as error:
-                raise ServiceUnavailable(f"service {self.name}: {error}") from error
             link = ServiceLink(
                 stream,
                 head=ANSWER_HEAD,
@@ -333,18 +313,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         except BaseException:
             stream.abort()
             raise
-        return self._opened(stream, link, client.header)
-
-    def _address(self, uri: str) -> tuple[str, int]:
-        try:
-            parts = urlsplit(uri)
-            if parts.scheme == "rosrpc" and parts.hostname and parts.port:
-                return parts.hostname, parts.port
-        except ValueError:
-            pass  # no port, or brackets that do not match
-        raise ServiceUnavailable(
-            f"service {self.name}: the master gives {uri!r}, expected rosrpc://host:port"
-        )
+        return self._opened(stream, link, header)
 
     def _opened(self, stream: Stream, link: ServiceLink, header: Mapping[str, str]) -> _Connection:
         peer = header.get("callerid", stream.peer)
@@ -361,14 +330,6 @@ class ServiceCaller(Role, Generic[Q, A]):
         if connection in self._open:
             self._open.discard(connection)
             self._node._emit(PeerDisconnected("service caller", self.name, connection.info))
-
-    async def _look_up(self) -> str:
-        try:
-            return await self._node.master.lookup_service(self.name)
-        except MasterUnreachable:
-            raise
-        except MasterError as error:
-            raise ServiceNotFound(f"service {self.name}: no provider: {error.status}") from error
 
     def _abort(self) -> None:
         super()._abort()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
@@ -10,6 +10,7 @@ from aioros1.idl import Message
 from aioros1.role import Opening
 from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
 from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
+from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
     from aioros1.idl import Service
@@ -26,6 +27,9 @@ class ServiceCalls(ABC):
     """The part of :class:`Node` that is about services."""
 
     _roles: Roles
+
+    @abstractmethod
+    def resolve_name(self, name: str) -> str: ...
 
     @overload
     def advertise_service(
@@ -80,7 +84,7 @@ class ServiceCalls(ABC):
     def service_caller(
         self,
         name: str,
-        type: str | type[GenpyService],
+        type: str | type[GenpyService] = "*",
         *,
         persistent: bool = False,
         timeout: float | None = None,
@@ -89,7 +93,7 @@ class ServiceCalls(ABC):
     def service_caller(
         self,
         name: str,
-        type: Any,
+        type: Any = "*",
         *,
         persistent: bool = False,
         timeout: float | None = None,
@@ -97,9 +101,14 @@ class ServiceCalls(ABC):
     ) -> Opening[ServiceCaller[Any, Any]]:
         """Open a service caller; see :class:`ServiceCallerOptions` for the options.
 
-        Nobody is asked whether the service is there. Raises
-        :class:`~aioros1.MessageError`, :class:`~aioros1.InvalidNameError` and
-        :class:`~aioros1.ClosedError`.
+        ``type`` is a service class, ours or genpy's, or ``"pkg/Type"``; then nobody is
+        asked whether the service is there. With ``"*"`` its provider is asked for the
+        type, within ``timeout``, and the definition is that of the node's store.
+
+        Raises :class:`~aioros1.MessageError`, :class:`~aioros1.InvalidNameError` and
+        :class:`~aioros1.ClosedError`; with ``"*"`` what :meth:`service_type` raises, and
+        :class:`~aioros1.MessageNotFoundError` for a type without a definition here,
+        :class:`~aioros1.Md5MismatchError` for one with another definition.
         """
         options = ServiceCallerOptions(
             persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay
@@ -121,7 +130,7 @@ class ServiceCalls(ABC):
     async def call(
         self,
         name: str,
-        type: str | type[GenpyService],
+        type: str | type[GenpyService] = "*",
         request: Any = None,
         /,
         *,
@@ -131,16 +140,32 @@ class ServiceCalls(ABC):
     async def call(
         self,
         name: str,
-        type: Any,
+        type: Any = "*",
         request: Any = None,
         /,
         *,
         timeout: float | None = None,
         **fields: Any,
     ) -> Any:
-        """One call of a service; see :meth:`ServiceCaller.call`."""
-        async with self.service_caller(name, type) as caller:
-            return await caller.call(request, timeout=timeout, **fields)
+        """One call of a service; see :meth:`service_caller` and :meth:`ServiceCaller.call`.
+
+        ``timeout`` covers the question for the type as well.
+        """
+        async with (
+            deadline(timeout, f"service {self.resolve_name(name)}: no answer"),
+            self.service_caller(name, type) as caller,
+        ):
+            return await caller.call(request, **fields)
+
+    async def service_type(self, name: str) -> str:
+        """The type of a service, as its provider says it.
+
+        Raises :class:`~aioros1.ServiceNotFound` when the master knows no provider,
+        :class:`~aioros1.ServiceUnavailable` when it cannot be reached,
+        :class:`~aioros1.HandshakeError` when it refuses, :class:`~aioros1.MasterError`,
+        :class:`~aioros1.InvalidNameError` and :class:`~aioros1.ClosedError`.
+        """
+        return await self._roles.service_type(name)
 
     async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
         """Wait until a service is registered and its provider answers.

@@ -45,7 +45,8 @@ async def call_triple(
     except XmlRpcFault as fault:
         raise refused(fault.code, fault.text) from fault
     except XmlRpcError as error:
-        raise refused(-1, f"{method} at {uri}: {error}") from error
+        whose = "master" if refused is MasterError else "node"
+        raise refused(-1, f"{error}; expected the answer of a ROS {whose}") from error
     except (OSError, TimeoutError) as error:
         raise unreachable(str(error)) from error
     except RuntimeError as error:  # the client is closed, and with it its node

@@ -97,11 +97,13 @@ class deadline:  # noqa: N801 - it is used as asyncio.timeout is
     A timeout that is not ours, of a caller further up, passes unchanged.
     """
 
-    __slots__ = ("_seconds", "_timeout", "_what")
+    __slots__ = ("_seconds", "_timeout", "_what", "why")
 
     def __init__(self, seconds: float | None, what: str) -> None:
         self._seconds = seconds
         self._what = what
+        self.why: object = ""
+        """What has been in the way so far, for the text of the error."""
 
     async def __aenter__(self) -> Self:
         self._timeout = asyncio.timeout(self._seconds)
@@ -116,4 +118,5 @@ class deadline:  # noqa: N801 - it is used as asyncio.timeout is
         try:
             await self._timeout.__aexit__(*exc_info)  # type: ignore[arg-type]
         except TimeoutError:
-            raise TimeoutError(f"{self._what} within {self._seconds} s") from None
+            why = f": {self.why}" if self.why else ""
+            raise TimeoutError(f"{self._what} within {self._seconds} s{why}") from None

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from threading import RLock
@@ -130,7 +131,8 @@ class MessageStore:
             if source is None:
                 if self.parent is None:
                     raise self._not_found(type, ("action",))
-                return self.parent.load_action(type)
+                with self._searched_too():
+                    return self.parent.load_action(type)
             spec = parse_action(type, source[0], path=source[1])
             messages = {suffix: self._load(f"{type}{suffix}", (type,)) for suffix in spec.messages}
             made = make_action_class(spec, messages, module=_module("action", type))
@@ -217,7 +219,8 @@ class MessageStore:
             if path is not None:
                 return path
         if self.parent is not None:
-            return self.parent.find(type, kind)
+            with self._searched_too():
+                return self.parent.find(type, kind)
         raise self._not_found(type, (kind,) if kind else KINDS)
 
     def packages(self) -> list[str]:
@@ -341,7 +344,8 @@ class MessageStore:
         try:
             if self.parent is None:
                 raise self._not_found(type, ("msg",), chain)
-            return self.parent._load(type, chain)
+            with self._searched_too():
+                return self.parent._load(type, chain)
         except MessageNotFoundError:
             for (name, _), cls in self._definitions.items():
                 if name == type:
@@ -356,7 +360,8 @@ class MessageStore:
         if source is None:
             if self.parent is None:
                 raise self._not_found(type, ("srv",))
-            inherited = self.parent.load_srv(type)
+            with self._searched_too():
+                inherited = self.parent.load_srv(type)
             parts = (inherited.Request, inherited.Response)
             inside = specs_of(cls for part in parts for cls in part._nested.values())
             if not self._overrides(inside):
@@ -369,11 +374,20 @@ class MessageStore:
     def _not_found(
         self, type: str, kinds: tuple[Kind, ...], chain: _Chain = ()
     ) -> MessageNotFoundError:
-        places = ", ".join(self.places()) or "no directory"
         files = ", ".join(f".{kind}" for kind in kinds)
         return MessageNotFoundError(
-            f"no definition ({files}) of {type}{_needed_by(chain)}; searched: {places}"
+            f"no definition ({files}) of {type}{_needed_by(chain)}", self.places()
         )
+
+    @contextmanager
+    def _searched_too(self) -> Iterator[None]:
+        """What the parent does not find was looked for here before."""
+        try:
+            yield
+        except MessageNotFoundError as error:
+            if error.places is not None:
+                error.places = list(dict.fromkeys([*self._search.places(), *error.places]))
+            raise
 
 
 def _remember(

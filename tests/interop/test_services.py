@@ -182,6 +182,43 @@ async def test_we_call(under_each: World, client: str) -> None:
 
 
 @pytest.mark.parametrize("client", ["rospy", "roscpp"])
+async def test_we_call_without_knowing_the_type(under_each: World, client: str) -> None:
+    """The provider is asked as rosservice asks it, and does not take that for a call."""
+    world = under_each
+    service = world.unique("flip")
+    process = await server(world, client, service)
+    async with world.node("ours") as node:
+        assert await node.service_type(service) == SET_BOOL
+        reply = await node.call(service, timeout=10, data=True)
+        assert (reply.success, reply.message) == (True, "it is on")
+        async with node.service_caller(service, persistent=True) as caller:
+            assert caller.type == SET_BOOL
+            assert [(await caller(data=True, timeout=10)).success for _ in range(2)] == [True, True]
+        expected = {"data": True} if client == "rospy" else True
+        assert process.values("request") == [expected] * 3
+        # Nested types, and those of which every node has some.
+        owner = {"rospy": "/rospy_server", "roscpp": "/roscpp_peer"}[client]
+        loggers = (await node.call(f"{owner}/get_loggers", timeout=10)).loggers
+        assert {type(entry)._type for entry in loggers} == {"roscpp/Logger"}
+
+
+@pytest.mark.parametrize("client", ["rospy", "roscpp"])
+async def test_their_type_is_not_known_here(under_rosmaster: World, client: str) -> None:
+    import aioros1
+
+    world = under_rosmaster
+    service = world.unique("flip")
+    await server(world, client, service)
+    empty = aioros1.MessageStore(parent=None)
+    async with world.node("ours", store=empty, rosout=False, logger_services=False) as node:
+        with pytest.raises(aioros1.MessageNotFoundError) as caught:
+            await node.call(service, timeout=10, data=True)
+        owner = {"rospy": "/rospy_server", "roscpp": "/roscpp_peer"}[client]
+        for part in (f"service {service} of {owner} has type {SET_BOOL}", "searched: no directory"):
+            assert part in str(caught.value)
+
+
+@pytest.mark.parametrize("client", ["rospy", "roscpp"])
 async def test_we_call_on_one_connection(under_rosmaster: World, client: str) -> None:
     world = under_rosmaster
     service = world.unique("flip")

@@ -1,0 +1,151 @@
+"""The provider of a service, as a caller finds it and shakes hands with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+
+from aioros1.errors import (
+    HandshakeError,
+    InvalidNameError,
+    MasterError,
+    MasterUnreachable,
+    Md5MismatchError,
+    MessageNotFoundError,
+    ServiceNotFound,
+    ServiceUnavailable,
+)
+from aioros1.idl.parser import split_type
+from aioros1.net.tcpros import Stream, connect
+from aioros1.waiting import deadline
+from aioros1.wire.handshake import ServiceClient, ServiceOffer
+
+if TYPE_CHECKING:
+    from aioros1.idl.service import AnyService
+    from aioros1.node import Node
+
+__all__ = ["agree", "look_up", "probe", "service_class_of", "type_of"]
+
+
+async def look_up(node: Node, service: str) -> str:
+    """The ``rosrpc://host:port`` that the master gives."""
+    try:
+        return await node.master.lookup_service(service)
+    except MasterUnreachable:
+        raise
+    except MasterError as error:
+        raise ServiceNotFound(f"service {service}: no provider: {error.status}") from error
+
+
+async def agree(
+    node: Node,
+    uri: str,
+    wanted: ServiceOffer,
+    *,
+    persistent: bool = False,
+    probe: bool = False,
+    tcp_nodelay: bool = True,
+) -> tuple[Stream, Mapping[str, str]]:
+    """Connect to the provider at ``uri``: the connection, and the provider's header.
+
+    Raises :class:`~aioros1.ServiceUnavailable`, and :class:`~aioros1.HandshakeError` when
+    it refuses or means another type.
+    """
+    service = wanted.service
+    try:
+        stream = await connect(*_address(service, uri), node.timeouts)
+    except (OSError, TimeoutError) as error:
+        raise ServiceUnavailable(f"service {service}: {error}") from error
+    try:
+        client = ServiceClient(
+            f"{service} at {stream.peer}",
+            node.name,
+            wanted,
+            persistent=persistent,
+            probe=probe,
+            tcp_nodelay=tcp_nodelay,
+            max_bytes=node.limits.header_bytes,
+            max_fields=node.limits.header_fields,
+        )
+        stream.writer.write(client.data_to_send())
+        try:
+            await stream.receive_header(client, timeout=node.timeouts.handshake)
+        except (OSError, TimeoutError) as error:
+            raise ServiceUnavailable(f"service {service}: {error}") from error
+    except BaseException:
+        stream.abort()
+        raise
+    return stream, client.header
+
+
+async def probe(node: Node, service: str) -> Mapping[str, str]:
+    """What the provider says of itself when it is asked whether it is there, of whatever
+    type; rosservice asks in the same way, and no provider takes it for a call.
+
+    Raises as :func:`look_up` and :func:`agree` do.
+    """
+    wanted = ServiceOffer(service, type="*", md5sum="*")
+    probes = node._roles.probes
+    try:
+        async with deadline(None, f"service {service}: no answer") as limit:
+            probes.add(limit)
+            try:
+                uri = await look_up(node, service)
+                stream, header = await agree(node, uri, wanted, probe=True)
+            finally:
+                probes.discard(limit)
+    except TimeoutError:
+        node._check_open()  # closing has ended it, and not the time
+        raise
+    stream.abort()
+    return header
+
+
+def type_of(service: str, header: Mapping[str, str]) -> str:
+    """The type that a provider has given.
+
+    Raises :class:`~aioros1.HandshakeError` for what is no type.
+    """
+    name = header.get("type", "")
+    try:
+        split_type(name)
+    except InvalidNameError as error:
+        peer = f"{service} of {header.get('callerid', '?')}"
+        raise HandshakeError(peer, f"expected its type as package/Type, got {name!r}") from error
+    return name
+
+
+async def service_class_of(node: Node, service: str) -> type[AnyService]:
+    """The class of the type that the provider says it has.
+
+    A provider says the name of its type and the MD5 sum, and no definition, so that has to
+    be in the node's store. Raises :class:`~aioros1.MessageNotFoundError` when it is not,
+    :class:`~aioros1.Md5MismatchError` when the store has another one by that name,
+    :class:`~aioros1.MessageSpecError` when it cannot be read, and as :func:`agree` does.
+    """
+    header = await probe(node, service)
+    name = type_of(service, header)
+    what = f"service {service} of {header.get('callerid', '?')} has type {name}"
+    try:
+        known = node.store.load_srv(name)
+    except MessageNotFoundError as error:
+        raise MessageNotFoundError(f"{what}: {error.text}", error.places) from error
+    md5sum = header.get("md5sum", "*")
+    if md5sum not in ("*", known._md5sum):
+        raise Md5MismatchError(
+            f"{what} with md5sum {md5sum}, but the definition known here has {known._md5sum}"
+        )
+    return known
+
+
+def _address(service: str, uri: str) -> tuple[str, int]:
+    try:
+        parts = urlsplit(uri)
+        if parts.scheme == "rosrpc" and parts.hostname and parts.port:
+            return parts.hostname, parts.port
+    except ValueError:
+        pass  # no port, or brackets that do not match
+    raise ServiceUnavailable(
+        f"service {service}: the master gives {uri!r}, expected rosrpc://host:port"
+    )
