@@ -58,7 +58,8 @@ async def call_triple(
     elif bare:
         value = answer
     else:
-        raise refused(-1, f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}")
+        wrong = ValueError(f"expected [code, status, value], got {answer!r:.200}")
+        raise refused(-1, f"{method} at {uri}: {wrong}") from wrong
     try:
         return read(value)
     except (TypeError, ValueError, LookupError, AttributeError) as error:

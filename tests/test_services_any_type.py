@@ -47,9 +47,11 @@ async def test_a_caller_takes_the_type_of_the_provider(make_node, persistent):
 async def test_definitions_of_the_nodes_own_store(master):
     store = aioros1.MessageStore()
     store.add_text("arm_srvs/Grip", "float32 force\n---\nbool done")
-    async with aioros1.Node("arm", master_uri=master.uri, host="localhost", store=store) as node:
-        async with node.advertise_service("grip", "arm_srvs/Grip", lambda request: {"done": True}):
-            assert (await node.call("grip", force=0.5, timeout=5)).done
+    async with (
+        aioros1.Node("arm", master_uri=master.uri, host="localhost", store=store) as node,
+        node.advertise_service("grip", "arm_srvs/Grip", lambda request: {"done": True}),
+    ):
+        assert (await node.call("grip", force=0.5, timeout=5)).done
 
 
 async def test_a_definition_that_is_not_here(make_node, tmp_path):

@@ -1,74 +1,272 @@
-"""A script of ours, started by roslaunch with the arguments it gives to every node."""
+"""Scripts of ours, started by roslaunch from a package, as it starts every node."""
 
 from __future__ import annotations
 
+import contextlib
+import json
+import signal
 import stat
 import sys
+from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
-from .processes import until
-from .world import World, free_port
+import pytest
 
-LAUNCH = """\
-<launch>
-  <param name="greeting" value="hello"/>
-  <group ns="robot">
-    <node pkg="launched" type="script.py" name="renamed" output="screen">
-      <param name="count" value="3"/>
-      <remap from="chatter" to="/elsewhere"/>
-    </node>
-  </group>
-</launch>
-"""
-
-SCRIPT = """\
-#!{python}
-import sys
-sys.path.insert(0, {root!r})
 import aioros1
 
-async def main(node):
-    count = await node.get_param("~count")
-    greeting = await node.get_param("/greeting")
-    async with node.advertise("chatter", "std_msgs/String", latch=True) as pub:
-        pub.publish(data=f"{{node.name}} {{count}} {{greeting}}")
-        print("published", flush=True)
-        await node.wait_closed()
+from .processes import Process, until
+from .world import World, free_port
 
-aioros1.run(main, "original")
-print("ended well", flush=True)
+PACKAGE = """\
+<package><name>launched</name><version>1.0.0</version><description>-</description>
+<maintainer email='a@b.c'>a</maintainer><license>BSD</license></package>
 """
 
+# What every script begins with. It says what it is in a line of JSON, in a file of its own:
+# roslaunch shows what a node prints, or writes it to a log, as the launch file says.
+HEAD = f"""\
+#!{sys.executable}
+import asyncio, json, os, sys
+sys.path.insert(0, {str(Path(aioros1.__file__).parent.parent)!r})
+import aioros1
 
-async def test_a_launched_script(tmp_path: Path) -> None:
-    import aioros1
+def tell(**values):
+    with open(os.environ["LAUNCHED_LOG"], "a") as log:
+        print(json.dumps({{"pid": os.getpid(), **values}}), file=log, flush=True)
+"""
 
-    package = tmp_path / "packages" / "launched"
-    package.mkdir(parents=True)
-    (package / "package.xml").write_text(
-        "<package><name>launched</name><version>1.0.0</version><description>-</description>"
-        "<maintainer email='a@b.c'>a</maintainer><license>BSD</license></package>"
-    )
-    (package / "some.launch").write_text(LAUNCH)
-    script = package / "script.py"
-    root = str(Path(aioros1.__file__).parent.parent)
-    script.write_text(SCRIPT.format(python=sys.executable, root=root))
-    script.chmod(script.stat().st_mode | stat.S_IXUSR)
+SCRIPTS = {
+    "talker.py": """
+async def main(node):
+    async with (
+        node.advertise("chatter", "std_msgs/String", latch=True) as pub,
+        node.advertise_service("~flip", "std_srvs/Empty", lambda request: None) as provider,
+    ):
+        pub.publish(data=node.name)
+        print("said hello", flush=True)
+        tell(
+            name=node.name, topic=pub.name, service=provider.name, argv=sys.argv[1:],
+            private=await node.get_param("~", None),
+            greeting=await node.get_param("/greeting", None),
+            shared=await node.get_param("shared", None), namespace=node.namespace,
+        )
+        await node.wait_closed()
+
+aioros1.run(main, "talker")
+tell(ended=True)
+""",
+    "dies.py": """
+async def main(node):
+    tell(name=node.name)
+    sys.exit(int(await node.get_param("~code")))
+
+aioros1.run(main, "dies")
+""",
+    "wrong.py": """
+async def main(node):
+    pass
+
+aioros1.run(main, "wrong")
+""",
+}
+
+
+class Launch:
+    """roslaunch with one file, and what the scripts have told."""
+
+    def __init__(self, world: World, process: Process, log: Path) -> None:
+        self.world = world
+        self.process = process
+        self._log = log
+
+    @property
+    def told(self) -> list[dict[str, Any]]:
+        complete = self._log.read_text().rpartition("\n")[0] if self._log.exists() else ""
+        return [json.loads(line) for line in complete.splitlines()]
+
+    async def wait_told(self, key: str, count: int = 1) -> list[dict[str, Any]]:
+        def found() -> list[dict[str, Any]] | None:
+            rows = [row for row in self.told if key in row]
+            return rows if len(rows) >= count else None
+
+        what = f"{count} that tell {key!r}"
+        rows: list[dict[str, Any]] = await until(
+            found, what=lambda: f"{what}: {self.told} {self.process.report()}", timeout=40
+        )
+        return rows
+
+    async def stop(self) -> None:
+        """As Ctrl-C in the terminal does it. Everything ends well, and by itself."""
+        self.process.signal(signal.SIGINT)
+        result = await self.process.wait(timeout=25)
+        assert result.code == 0, self.process.report()
+        assert "escalating" not in result.text, self.process.report()
+
+
+@contextlib.asynccontextmanager
+async def launched(
+    folder: Path, body: str, *words: str, master: str | None = None
+) -> AsyncIterator[Launch]:
+    """Start a launch file; it brings a master with it unless ``master`` is one."""
+    from .processes import end_all
+
+    package = folder / "packages" / "launched"
+    (package / "scripts").mkdir(parents=True)
+    (package / "package.xml").write_text(PACKAGE)
+    (package / "some.launch").write_text(f"<launch>\n{body}\n</launch>\n")
+    (package / "robot.yaml").write_text("speed: 1.5\nwheels: [left, right]\nlimits: {high: 7}\n")
+    for name, code in SCRIPTS.items():
+        script = package / "scripts" / name
+        script.write_text(HEAD + code)
+        script.chmod(script.stat().st_mode | stat.S_IXUSR)
     port = free_port()
-    world = World("roslaunch", f"http://localhost:{port}", tmp_path)
-    env = {"ROS_PACKAGE_PATH": f"{package.parent}:/usr/share"}
-    launch = world.start("roslaunch", "-p", str(port), "launched", "some.launch", env=env)
+    world = World("roslaunch", master or f"http://localhost:{port}", folder)
+    log = folder / "told.jsonl"
+    env = {"ROS_PACKAGE_PATH": f"{package.parent}:/usr/share", "LAUNCHED_LOG": str(log)}
+    which = () if master else ("-p", str(port))
     try:
-        await launch.wait_text("published", timeout=40)
-        result = await world.run("rostopic", "echo", "-n", "1", "/elsewhere")
-        assert "/robot/renamed 3 hello" in result.stdout
-        assert await world.who("publishers", "/elsewhere") == {"/robot/renamed"}
-        # rosnode kill, and not a signal: it ends as a whole and with exit code 0.
-        await world.run("rosnode", "kill", "/robot/renamed")
-        await launch.wait_text("ended well")
-        await launch.wait_text("process has finished cleanly")
-        await until(lambda: "/robot/renamed" in launch.report(), what="its name in the log")
+        yield Launch(
+            world, world.start("roslaunch", *which, "launched", "some.launch", *words, env=env), log
+        )
     finally:
-        from .processes import end_all
-
         await end_all(world.processes)
+
+
+async def test_names_remappings_and_parameters(tmp_path: Path) -> None:
+    body = """
+      <arg name="who"/>
+      <param name="greeting" value="hello"/>
+      <rosparam command="load" file="$(find launched)/robot.yaml" ns="robot/$(arg who)/settings"/>
+      <group ns="robot">
+        <param name="shared" value="true"/>
+        <remap from="chatter" to="/elsewhere"/>
+        <node pkg="launched" type="talker.py" name="$(arg who)"
+              output="screen" args="one _x:=[1] -v">
+          <param name="count" value="3"/>
+          <param name="text" value="3" type="str"/>
+          <rosparam>{list: [1, 2.5, yes], inner: {deep: text}}</rosparam>
+          <remap from="~flip" to="turn"/>
+        </node>
+      </group>
+      <node pkg="launched" type="talker.py" name="plain" ns="outer/inner"/>
+      <node pkg="launched" type="talker.py" name="$(anon any)"/>
+    """
+    async with launched(tmp_path, body, "who:=renamed") as launch:
+        rows = {row["name"]: row for row in await launch.wait_told("name", 3)}
+        row = rows.pop("/robot/renamed")
+        assert (row["topic"], row["service"]) == ("/elsewhere", "/robot/turn")
+        inner = {"list": [1, 2.5, True], "inner": {"deep": "text"}}
+        assert row["private"] == {
+            "count": 3,
+            "text": "3",
+            "x": [1],
+            **inner,
+            "settings": {"speed": 1.5, "wheels": ["left", "right"], "limits": {"high": 7}},
+        }
+        assert (row["greeting"], row["shared"]) == ("hello", True)
+        assert {word.partition(":=")[0] for word in row["argv"]} >= {"one", "-v", "__name", "__log"}
+        plain = rows.pop("/outer/inner/plain")
+        assert plain["topic"] == "/outer/inner/chatter"
+        assert (plain["namespace"], plain["private"]) == ("/outer/inner", None)
+        (anonymous,) = rows.values()
+        assert anonymous["name"].startswith("/any_")
+
+        world = launch.world
+        result = await world.run("rostopic", "echo", "-n", "1", "/elsewhere")
+        assert "/robot/renamed" in result.stdout
+        # output="screen" of the one shows what it prints, and that of the others is in logs.
+        await launch.process.wait_text("said hello")
+        assert launch.process.stdout.count("said hello") == 1
+        await world.run("rosservice", "call", "/robot/turn")
+        await launch.stop()
+        assert len(await launch.wait_told("ended", 3)) == 3
+
+
+async def test_it_is_stopped_and_leaves_nothing_at_the_master(
+    tmp_path: Path, our_master: aioros1.Master
+) -> None:
+    body = """
+      <node pkg="launched" type="talker.py" name="one"/>
+      <node pkg="launched" type="talker.py" name="two"/>
+    """
+    async with launched(tmp_path, body, master=our_master.uri) as launch:
+        await launch.wait_told("name", 2)
+        assert await launch.world.who("publishers", "/chatter") == {"/one", "/two"}
+        await launch.stop()
+        # Not only at last: it had told the master before its process ended.
+        assert await launch.world.traces("/one") == []
+        assert await launch.world.traces("/two") == []
+        assert len(await launch.wait_told("ended", 2)) == 2
+
+
+async def test_rosnode_kill_ends_one(tmp_path: Path) -> None:
+    body = """
+      <node pkg="launched" type="talker.py" name="one"/>
+      <node pkg="launched" type="talker.py" name="two"/>
+    """
+    async with launched(tmp_path, body) as launch:
+        await launch.wait_told("name", 2)
+        await launch.world.run("rosnode", "kill", "/one")
+        await launch.process.wait_text("one-.*process has finished cleanly")
+        assert await launch.world.traces("/one") == []
+        assert await launch.world.who("publishers", "/chatter") == {"/two"}
+        await launch.stop()
+
+
+async def test_respawn_starts_it_again(tmp_path: Path) -> None:
+    body = '<node pkg="launched" type="talker.py" name="one" respawn="true"/>'
+    async with launched(tmp_path, body) as launch:
+        (first,) = await launch.wait_told("name")
+        await launch.world.run("rosnode", "kill", "/one")
+        _, second = await launch.wait_told("name", 2)
+        assert second["name"] == first["name"]
+        assert second["pid"] != first["pid"]
+        await launch.world.wait_who("publishers", "/chatter", {"/one"})
+        await launch.stop()
+
+
+@pytest.mark.parametrize("code", [0, 3])
+async def test_the_end_of_a_required_one_ends_all(tmp_path: Path, code: int) -> None:
+    body = f"""
+      <node pkg="launched" type="talker.py" name="one"/>
+      <node pkg="launched" type="dies.py" name="two" required="true">
+        <param name="code" value="{code}"/>
+      </node>
+    """
+    async with launched(tmp_path, body) as launch:
+        await launch.process.wait(timeout=40)
+        text = launch.process.stdout + launch.process.stderr
+        assert "REQUIRED process [two-" in text
+        assert ("exit code 3" in text) is (code == 3)
+        if any(row.get("name") == "/one" for row in launch.told):
+            await launch.wait_told("ended")
+
+
+async def test_a_launch_prefix(tmp_path: Path) -> None:
+    """What comes first starts the script, as a debugger or ``nice`` would."""
+    body = """
+      <node pkg="launched" type="talker.py" name="one" launch-prefix="env SOME=thing nice -n 5">
+        <env name="ROS_NAMESPACE" value="by_environment"/>
+      </node>
+    """
+    async with launched(tmp_path, body) as launch:
+        (row,) = await launch.wait_told("name")
+        assert b"SOME=thing" in _environment(row["pid"])
+        # roslaunch says the namespace by a variable, and a launch file may set that.
+        assert row["name"] == "/by_environment/one"
+        await launch.stop()
+        await launch.wait_told("ended")
+
+
+async def test_what_is_wrong_is_said_on_the_screen(tmp_path: Path) -> None:
+    body = '<node pkg="launched" type="wrong.py" name="one" output="screen" args="_list:=[1,"/>'
+    async with launched(tmp_path, body) as launch:
+        await launch.process.wait_text(
+            r"ValueError: _list:=\[1,: expected a value in YAML", timeout=40
+        )
+        await launch.process.wait_text("process has died .*exit code 1")
+
+
+def _environment(pid: int) -> list[bytes]:
+    return Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")

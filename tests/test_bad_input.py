@@ -1,0 +1,188 @@
+"""Words, variables and masters that are wrong: what is refused, and with which text."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import AsyncIterator
+
+import pytest
+from aiohttp import web
+
+import aioros1
+
+# --------------------------------------------------------------------------- words
+
+
+@pytest.mark.parametrize(
+    ("word", "error", "parts"),
+    [
+        ("_list:=[1,", ValueError, ["'[1,'", "expected a value in YAML"]),
+        ("_o:=!!python/object:os.system {}", ValueError, ["expected a value in YAML"]),
+        ("_n:=null", ValueError, ["'null'", "expected the value of a parameter"]),
+        ("_n:=99999999999", ValueError, ["'99999999999'", "32 bits"]),
+        ("_d:={1: 2}", ValueError, ["'{1: 2}'", "keys of a struct are strings"]),
+        ("_d:=2026-01-01", ValueError, ["'2026-01-01'", "expected the value of a parameter"]),
+        ("__name:=a/b", aioros1.InvalidNameError, ["'a/b'", "a single name like 'camera'"]),
+        ("__name:=a b", aioros1.InvalidNameError, ["'a b'", "a single name like 'camera'"]),
+        ("__ns:=~x", aioros1.InvalidNameError, ["'~x'", "expected one like '/robot/arm'"]),
+        ("__master:=localhost:11311", ValueError, ["'localhost:11311'", "http://host:port"]),
+        ("__ip:=10.0.0.2:80", ValueError, ["'10.0.0.2:80'", "without a port"]),
+        ("__hostname:=http://robot", ValueError, ["'http://robot'", "without a port"]),
+        ("__hostname:=my robot", ValueError, ["'my robot'", "'robot.local' or '10.0.0.2'"]),
+        ("scan:=a b", aioros1.InvalidNameError, ["'a b'", "name to remap to"]),
+        ("scan:=", aioros1.InvalidNameError, ["'scan:='", "expected a name"]),
+    ],
+)
+def test_words_of_a_command_line(word, error, parts):
+    with pytest.raises(error) as caught:
+        aioros1.Node("demo", argv=[word])
+    if word.startswith("_"):
+        assert str(caught.value).startswith(f"{word}: ")
+    for part in parts:
+        assert part in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "error", "expected"),
+    [
+        ("ROS_MASTER_URI", "rubbish", ValueError, "http://host:port"),
+        ("ROS_NAMESPACE", "a b", aioros1.InvalidNameError, "expected one like '/robot/arm'"),
+        ("ROS_IP", "10.0.0.2:80", ValueError, "without a port"),
+        ("ROS_HOSTNAME", "my robot", ValueError, "'robot.local' or '10.0.0.2'"),
+    ],
+)
+def test_variables_of_the_environment(monkeypatch, variable, value, error, expected):
+    monkeypatch.setenv(variable, value)
+    with pytest.raises(error) as caught:
+        aioros1.Node("demo")
+    assert str(caught.value).startswith(f"{variable}={value}: ")
+    assert repr(value) in str(caught.value)
+    assert expected in str(caught.value)
+
+
+def test_what_is_said_with_more_weight_is_not_looked_at_twice(monkeypatch):
+    """A wrong value that counts for nothing is no error."""
+    monkeypatch.setenv("ROS_MASTER_URI", "rubbish")
+    monkeypatch.setenv("ROS_IP", "my robot")
+    node = aioros1.Node("demo", argv=["__master:=http://robot:1", "__ip:=10.0.0.2"])
+    assert node.master_uri == "http://robot:1"
+
+
+@pytest.mark.parametrize("words", [[], ["__name:=", "__ns:=", "__ip:=", "__master:="]])
+def test_words_and_variables_that_are_empty_say_nothing(monkeypatch, words):
+    for variable in ("ROS_MASTER_URI", "ROS_NAMESPACE", "ROS_IP", "ROS_HOSTNAME"):
+        monkeypatch.setenv(variable, "")
+    node = aioros1.Node("demo", argv=words)
+    assert (node.name, node.master_uri) == ("/demo", "http://localhost:11311")
+
+
+async def test_an_empty_parameter_is_the_empty_text(make_node):
+    node = await make_node(argv=["_text:=", "_quoted:='7'", "_map:={a: [1, 2.5]}"])
+    assert await node.get_param("~") == {"text": "", "quoted": "7", "map": {"a": [1, 2.5]}}
+
+
+@pytest.mark.parametrize("name", ["1x", "a-b", "ü", "x.y"])
+async def test_names_that_only_the_rules_forbid(make_node, name):
+    """Every master takes them, and robots in the field use them."""
+    node = await make_node(argv=[f"__name:={name}"])
+    other = await make_node("other")
+    async with node.advertise("chatter", "std_msgs/String"):
+        assert await (await other.peer(f"/{name}")).get_master_uri() == node.master_uri
+
+
+@pytest.mark.parametrize(
+    "host", ["robot", "robot.local", "10.0.0.2", "fe80::1", "fe80::1%eth0", "no-such-host.invalid"]
+)
+def test_hosts_that_may_be_some(host):
+    """Whether a name is known has to be said where it is used, and not here."""
+    assert aioros1.Node("demo", argv=[f"__hostname:={host}"]).options.argv
+
+
+# --------------------------------------------------------------------------- masters
+
+
+@pytest.mark.parametrize(
+    "uri",
+    [
+        *("rubbish", "robot:11311", "https://robot:1", "ftp://robot:1", "http://", "http://[::1"),
+        *("http://robot:x", "http://robot:0", "http://robot:99999", "http://a b:1"),
+    ],
+)
+async def test_what_is_no_uri_of_a_master(uri):
+    with pytest.raises(ValueError, match="expected http://host:port") as caught:
+        aioros1.Node("demo", master_uri=uri)
+    assert repr(uri) in str(caught.value)
+    with pytest.raises(ValueError, match="expected http://host:port"):
+        await aioros1.wait_for_master(uri, timeout=5)
+
+
+@contextlib.asynccontextmanager
+async def web_server(status: int, body: str, kind: str) -> AsyncIterator[str]:
+    async def page(request: web.BaseRequest) -> web.Response:
+        return web.Response(text=body, status=status, content_type=kind)
+
+    runner = web.ServerRunner(web.Server(page))
+    await runner.setup()
+    try:
+        await web.TCPSite(runner, "127.0.0.1", 0).start()
+        yield f"http://127.0.0.1:{runner.addresses[0][1]}"
+    finally:
+        await runner.cleanup()
+
+
+NO_TRIPLE = (
+    "<?xml version='1.0'?><methodResponse><params><param><value>hello</value></param></params>"
+    "</methodResponse>"
+)
+
+
+@pytest.mark.parametrize(
+    ("status", "body", "kind", "why"),
+    [
+        (200, "<html>Welcome!</html>", "text/html", "got a <html>; expected the answer of a ROS"),
+        (200, "Welcome!", "text/plain", "expected the answer of a ROS master"),
+        (200, "", "text/xml", "expected the answer of a ROS master"),
+        (404, "", "text/plain", "HTTP status 404 Not Found; expected the answer of a ROS master"),
+        (501, "", "text/plain", "HTTP status 501"),
+        (200, NO_TRIPLE, "text/xml", "expected [code, status, value], got 'hello'"),
+    ],
+    ids=["page", "text", "nothing", "404", "501", "xmlrpc"],
+)
+async def test_a_web_server_that_is_no_master(status, body, kind, why):
+    async with (
+        web_server(status, body, kind) as uri,
+        aioros1.Node("demo", master_uri=uri, host="localhost", heartbeat=None) as node,
+    ):
+        waits = {
+            "node": lambda: node.wait_for_master(timeout=0.2),
+            "script": lambda: aioros1.wait_for_master(uri, timeout=0.2),
+        }
+        for wait in waits.values():
+            with pytest.raises(TimeoutError) as late:
+                await wait()
+            assert f"no master at {uri} within 0.2 s: getPid at {uri}: " in str(late.value)
+            assert why in str(late.value)
+        uses = {
+            "registerPublisher": lambda: node.advertise("chatter", "std_msgs/String"),
+            "getParam": lambda: node.get_param("rate"),
+            "lookupService": lambda: node.master.lookup_service("/flip"),
+        }
+        for method, use in uses.items():
+            with pytest.raises(aioros1.MasterError) as caught:
+                await use()
+            assert str(caught.value).startswith(f"{method} at {uri}: ")
+            assert str(caught.value).count(uri) == 1
+            assert why in str(caught.value)
+            assert not isinstance(caught.value, aioros1.MasterUnreachable)
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "no-such-host.invalid"])
+async def test_a_master_that_is_not_there(host):
+    uri = f"http://{host}:9"
+    async with aioros1.Node("demo", master_uri=uri, host="localhost", heartbeat=None) as node:
+        with pytest.raises(aioros1.MasterUnreachable, match="cannot connect") as caught:
+            await node.advertise("chatter", "std_msgs/String")
+        assert f"registerPublisher at {uri}" in str(caught.value)
+        with pytest.raises(TimeoutError, match=r"within .* s: .*cannot connect") as late:
+            await node.wait_for_master(timeout=0.2)
+        assert f"no master at {uri}" in str(late.value)
