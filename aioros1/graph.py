@@ -12,7 +12,16 @@ from aioros1.waiting import deadline
 if TYPE_CHECKING:
     from aioros1.node import Node
 
-__all__ = ["Graph", "GraphChange", "GraphChanges", "GraphSnapshot"]
+__all__ = ["Graph", "GraphChange", "GraphChanges", "GraphNode", "GraphSnapshot"]
+
+
+@dataclass(frozen=True, slots=True)
+class GraphNode:
+    """What one node is registered for: names of topics and services."""
+
+    publishes: frozenset[str]
+    subscribes: frozenset[str]
+    provides: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +45,25 @@ class GraphSnapshot:
         """Every topic that is published or subscribed."""
         return frozenset(self.publishers) | frozenset(self.subscribers)
 
-    def _edges(self) -> frozenset[tuple[str, str, str]]:
+    @property
+    def edges(self) -> frozenset[tuple[str, str, str]]:
+        """(publisher, topic, subscriber) for all that should be connected, as rqt_graph draws
+        it. A node that hears itself is among them."""
+        return frozenset(
+            (publisher, topic, subscriber)
+            for topic, publishers in self.publishers.items()
+            for publisher in publishers
+            for subscriber in self.subscribers.get(topic, ())
+        )
+
+    def node(self, name: str) -> GraphNode:
+        """What the node of that full name does; nothing, if there is none."""
+        parts = (self.publishers, self.subscribers, self.services)
+        return GraphNode(
+            *(frozenset(each for each, nodes in part.items() if name in nodes) for part in parts)
+        )
+
+    def _registrations(self) -> frozenset[tuple[str, str, str]]:
         parts = {
             "publisher": self.publishers,
             "subscriber": self.subscribers,
@@ -130,7 +157,7 @@ class GraphChanges:
             while self._before is not None and not self._has_ended:
                 await node._pause(self._poll)
                 now = await self._graph.snapshot()
-                old, new = self._before._edges(), now._edges()
+                old, new = self._before._registrations(), now._registrations()
                 self._before = now
                 if old != new:
                     return GraphChange(now, new - old, old - new)

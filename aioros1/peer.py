@@ -123,6 +123,7 @@ class NodeProxy:
         return await self.call("getBusInfo", read=_bus_info)
 
     async def get_master_uri(self) -> str:
+        """The URI of the node's master. roscpp has no such method, and refuses."""
         return await self.call("getMasterUri", read=str)
 
     async def shutdown(self, reason: str = "") -> None:
