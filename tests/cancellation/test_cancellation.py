@@ -77,6 +77,7 @@ OPENINGS: dict[str, Callable[[aioros1.Node], Any]] = {
     "subscribe what is published": lambda node: node.subscribe("offered"),
     "advertise_service": lambda node: node.advertise_service("fresh", SetBool, flip),
     "service_caller": lambda node: node.service_caller("flip", SetBool),
+    "service_caller of any type": lambda node: node.service_caller("flip"),
     "subscribe_param": lambda node: node.subscribe_param("/fresh/param"),
     "subscribe_param again": lambda node: node.subscribe_param("/followed"),
 }
