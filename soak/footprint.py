@@ -45,11 +45,12 @@ class Footprint:
             memory=_memory(),
         )
 
-    def problems_since(self, before: Footprint) -> list[str]:
-        """What there is more of than before."""
+    def problems_since(self, before: Footprint, *, kept: int = 0) -> list[str]:
+        """What there is more of than before. ``kept`` descriptors may be of connections that
+        are idle, and kept for a while."""
         grown = {
             "tasks": (self.tasks - before.tasks, 0),
-            "file descriptors": (self.fds - before.fds, 0),
+            "file descriptors": (self.fds - before.fds, kept),
             "threads": (self.threads - before.threads, 0),
             "objects": (self.objects - before.objects, OBJECTS),
             "bytes of memory": (self.memory - before.memory, MEMORY),
