@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from weakref import WeakSet
 
 from aioros1.errors import ClosedError
 from aioros1.fields import message_from
@@ -81,7 +82,7 @@ class Publisher(Role, Generic[M]):
         self._frame = _frame_encoder(message_class)
         self._is_numbered = message_class._has_header
         self._seq = 0
-        self._timers: list[Timer] = []
+        self._timers: WeakSet[Timer] = WeakSet()  # those that run keep themselves
 
     @property
     def type(self) -> str:
@@ -236,7 +237,7 @@ class Publisher(Role, Generic[M]):
                 pass  # while it waited
 
         timer = self._node.timer(period, publish)
-        self._timers.append(timer)
+        self._timers.add(timer)
         return timer
 
     async def drain(self, *, timeout: float | None = None) -> None:
@@ -291,7 +292,7 @@ class Publisher(Role, Generic[M]):
         self._publication.changed.wake()
 
     async def _close(self) -> None:
-        for timer in self._timers:
+        for timer in tuple(self._timers):
             timer.cancel()
         await self._node._roles.close_publisher(self, self._publication)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 
 import pytest
 
@@ -71,6 +72,17 @@ async def test_it_ends_with_the_publisher(make_node):
     await asyncio.sleep(0)
     assert not [task for task in asyncio.all_tasks() - tasks if "timer" in task.get_name()]
     assert node.is_open
+
+
+async def test_it_ends_with_the_publisher_though_nobody_keeps_the_timer(make_node):
+    node = await make_node("node")
+    pub = await node.advertise("chatter", String)
+    pub.publish_every(1000, data="later")
+    gc.collect()
+    assert [task for task in asyncio.all_tasks() if "timer" in task.get_name()]
+    await pub.close()
+    await asyncio.sleep(0)
+    assert not [task for task in asyncio.all_tasks() if "timer" in task.get_name()]
 
 
 async def test_it_waits_for_room_where_nothing_may_be_dropped(make_node):
