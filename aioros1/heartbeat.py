@@ -9,6 +9,7 @@ another address, and so it registers that one.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections.abc import Awaitable, Iterable
 from typing import TYPE_CHECKING
 
@@ -72,6 +73,8 @@ class Heartbeat:
         was_lost, self._is_lost = self._is_lost, False
         if self._is_stopped:
             return
+        with contextlib.suppress(MasterError):  # the next time
+            await node._sim_time.ask()
         await self._move()
         if identity == known and not was_lost and not self._is_stale:
             await self._settle()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from aioros1 import names
 from aioros1.acceptor import Acceptor
-from aioros1.clock import Clock, Rate, Timer
+from aioros1.clock import Clock
 from aioros1.errors import ClosedError, MasterUnreachable
 from aioros1.events import Broadcast, Event, EventStream
 from aioros1.graph import Graph
@@ -36,13 +36,16 @@ from aioros1.options import (
 from aioros1.own_address import OwnAddress
 from aioros1.param_calls import ParamCalls
 from aioros1.peer import NodeProxy
+from aioros1.rate import Rate, period_of
 from aioros1.role import NodeStats, Role
 from aioros1.roles import Roles
 from aioros1.rosout import Rosout
 from aioros1.service_calls import ServiceCalls
+from aioros1.sim_time import SimTime
 from aioros1.slave_api import SlaveApi
 from aioros1.supervisor import Supervisor
 from aioros1.time import Duration, Time
+from aioros1.timer import Timer
 from aioros1.topic_calls import TopicCalls
 from aioros1.waiting import deadline
 
@@ -76,8 +79,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     ``store`` resolves type names. ``rosout`` publishes ``node.log`` on ``/rosout``; names of
     loggers (``rosout=["myapp"]``) are published in addition, with all below them, at the
     levels they have. ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
-    ``use_sim_time`` None does what the parameter ``/use_sim_time`` says. ``heartbeat``
-    is how often, in seconds, the master is looked after, None for never. ``on_error``
+    ``use_sim_time`` None does what the parameter ``/use_sim_time`` says, at the start and with
+    each heartbeat. ``heartbeat`` is how often, in seconds, the master is looked after, None for
+    never. ``on_error``
     says what becomes of an exception in a timer's callback: ``"raise"`` closes the node
     and raises it where the node is used, ``"log"`` logs it, a function is called with it.
     ``local_transports`` may name ``"intraprocess"`` and ``"unix"``: topics then go past TCP
@@ -177,6 +181,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._statistics: Statistics | None = None  # once it is published
 
         self._roles = Roles(self)
+        self._sim_time = SimTime(self)
 
     # life
 
@@ -367,7 +372,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
 
         Raises :class:`ValueError` for a rate that is not positive.
         """
-        return self._clock.rate(hz)
+        return Rate(self._clock, period_of(hz))
 
     def timer(
         self,
@@ -450,14 +455,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         """Say, and ask, what can only be once there is a master."""
         for key, value in self._private_params.items():
             await self.set_param(f"~{key}", value)
-        simulated = self.options.use_sim_time
-        if simulated is None:
-            simulated = bool(await self.get_param("/use_sim_time", False))
         has_statistics = await self.get_param("/enable_statistics", False) is True
+        await self._sim_time.ask()
         # All that may fail, and is then done again, is behind us.
-        if simulated:
-            self._clock.simulate()
-            self._spawn(self._clock.follow, self, name=f"{self.name} clock")
         if has_statistics:
             from aioros1 import statistics  # here, as hardly anybody wants it
 

@@ -18,12 +18,12 @@ from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
 
 if TYPE_CHECKING:
-    from aioros1.clock import Timer
     from aioros1.connection import ConnectionInfo
     from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.node import Node
     from aioros1.publication import Publication
     from aioros1.time import Duration, Time
+    from aioros1.timer import Timer
 
 __all__ = ["Publisher", "PublisherOptions"]
 

@@ -177,7 +177,7 @@ async def test_a_sleep_of_a_duration_is_exact(simulation):
 
 
 async def test_a_clock_that_is_silent_is_told_once(make_node, monkeypatch, caplog):
-    monkeypatch.setattr("aioros1.clock._SILENCE", 0.02)
+    monkeypatch.setattr("aioros1.sim_time._SILENCE", 0.02)
     clock = await make_node("clock")
     node = await make_node("simulated", use_sim_time=True)
     asleep = asyncio.create_task(node.sleep(1))
@@ -199,16 +199,83 @@ async def test_a_clock_that_comes_in_time_is_no_reason_to_warn(simulation, caplo
     assert caplog.messages == []
 
 
-async def test_use_sim_time_counts_when_the_node_starts(make_node):
-    other = await make_node("other")
-    node = await make_node("node")
-    await other.set_param("/use_sim_time", True)
-    simulated = await make_node("simulated")
-    assert node.now().to_sec() > 1e9
-    assert simulated.now() == Time()
-    await other.set_param("/use_sim_time", False)
-    assert simulated.now() == Time()
-    await node.sleep(0.001)  # real seconds: nobody publishes /clock
+async def becomes(is_simulated, node):
+    """Wait until a node has the one time or the other; a simulated one begins at zero."""
+    async with asyncio.timeout(5):
+        while (node.now() < Time(1_000_000_000)) is not is_simulated:
+            await asyncio.sleep(0.001)
+
+
+async def test_use_sim_time_counts_when_it_changes(make_node):
+    other = await make_node("other", use_sim_time=False)
+    node = await make_node("node", heartbeat=0.01)
+    own = await make_node("own", use_sim_time=True)
+    assert node.roles == ()
+    assert node.stats.roles == 0
+    for _ in range(2):
+        asleep = asyncio.create_task(node.sleep(3600))
+        await asyncio.sleep(0)
+        await other.set_param("/use_sim_time", True)
+        await becomes(True, node)
+        await asleep  # an hour of the other time
+        asleep = asyncio.create_task(node.sleep(0.01))
+        await asyncio.sleep(0)
+        await other.set_param("/use_sim_time", False)
+        await becomes(False, node)
+        await asleep  # it had to wait for the first time
+    assert other.now() != Time()
+    assert own.now() == Time()
+
+
+async def test_clock_is_followed_while_it_is_wanted(make_node):
+    clock = await make_node("clock", use_sim_time=False)
+    node = await make_node("node", heartbeat=0.01)
+    async with clock.advertise("/clock", "rosgraph_msgs/Clock", overflow="block") as pub:
+        for start in (100, 50):
+            await clock.set_param("/use_sim_time", True)
+            await pub.wait_for_subscribers(timeout=5)
+            assert node.now() == Time()
+            simulation = Simulation(node, pub)
+            await simulation.set(start)
+            rate = node.rate(1)
+            ticking = asyncio.create_task(anext(rate))
+            await asyncio.sleep(0)
+            await simulation.set(start + 1)
+            assert await ticking == Time(start + 1)
+            asleep = asyncio.create_task(node.sleep(3600))
+            await asyncio.sleep(0)
+            await clock.set_param("/use_sim_time", False)
+            async with asyncio.timeout(5):
+                while pub.connections:
+                    await asyncio.sleep(0.001)
+            assert abs(node.now().to_sec() - time.time()) < 60
+            await asleep
+            rate = node.rate(1000)
+            assert await anext(rate) < await anext(rate)
+
+
+async def test_time_stays_as_it_is_when_the_parameter_has_gone(make_node):
+    """With its master, for example: the simulation runs on then."""
+    params = {"/use_sim_time": True}
+    async with aioros1.Master(host="localhost", port=0, rosout=False, params=params) as master:
+        port = master.port
+        options = {"master_uri": master.uri, "heartbeat": 0.02}
+        clock = await make_node("clock", use_sim_time=False, **options)
+        node = await make_node("node", **options)
+        pub = await clock.advertise("/clock", "rosgraph_msgs/Clock", overflow="block")
+        await pub.wait_for_subscribers(timeout=5)
+        simulation = Simulation(node, pub)
+        await simulation.set(100)
+    events = node.events()
+    async with aioros1.Master(host="localhost", port=port, rosout=False):
+        async for event in events:
+            if isinstance(event, aioros1.MasterRestarted):
+                break  # it has asked for the parameter, too
+        await simulation.set(102)
+        await clock.set_param("/use_sim_time", False)
+        await becomes(False, node)
+        await node.close()
+        await clock.close()
 
 
 async def test_who_waits_while_the_master_comes_with_simulated_time(make_node):

@@ -33,7 +33,7 @@ class SimulatedClock:
     When the block begins, ``/use_sim_time`` is set to true, a node ``/simulated_clock``
     publishes, latched, and the time is ``start``, seconds or a :class:`~aioros1.Time`. It
     cannot be zero: that means in ROS that there is no time yet. When the block ends,
-    ``/use_sim_time`` is deleted.
+    ``/use_sim_time`` is deleted; nodes that are still open keep the time that they have.
 
     :meth:`set` and :meth:`advance` return when two things have happened. Every node that
     was given to :meth:`track`, is open and follows ``/clock`` has the new time. And what was
@@ -97,10 +97,13 @@ class SimulatedClock:
         """Wait for ``node``, now and at each change, until it has the time over.
 
         For nodes in the same event loop; in tests with pytest those of the fixtures are
-        tracked already. Raises :class:`TimeoutError` if the time does not come to it.
+        tracked already. One that was started before the clock takes it over with its next
+        heartbeat. Raises :class:`TimeoutError` if the time does not come to it.
         """
         self._tracked.append(node)
-        await self._wait_for(node)
+        # One that was there before the clock learns of it as of any change of a parameter.
+        if node.is_open and node.options.use_sim_time is not False and self._is_of(node):
+            await self._wait_for(node)
 
     async def set(self, time: float | Time) -> None:
         """Jump to ``time``, in seconds or as a :class:`~aioros1.Time`, in one step.
@@ -157,12 +160,13 @@ class SimulatedClock:
         await self._publisher.send(clock=moment, timeout=_PATIENCE)
         self._now = moment
 
+    def _is_of(self, node: Node) -> bool:
+        return node.master_uri == self._node.master_uri
+
     def _following(self) -> list[Node]:
         return [node for node in self._tracked if node.is_open and node._clock.is_simulated]
 
     async def _wait_for(self, node: Node) -> None:
-        if not (node.is_open and node._clock.is_simulated):
-            return
         try:
             await node._clock.wait_until_shows(self._now.to_nsec(), timeout=_PATIENCE)
         except TimeoutError:

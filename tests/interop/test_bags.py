@@ -6,7 +6,7 @@ import asyncio
 import itertools
 from pathlib import Path
 
-from aioros1 import Duration
+from aioros1 import Duration, Time
 
 from .ours import take
 from .processes import until
@@ -118,6 +118,27 @@ async def test_the_clock_of_a_bag_drives_rates_and_timers(under_rosmaster: World
         steps = [later - earlier for earlier, later in itertools.pairwise(times)]
         assert all(info["start"] - 1 < now < info["end"] + 1 for now in times)
         assert sum(step < 0 for step in steps) == 1
+
+
+async def test_a_node_that_runs_goes_over_to_the_clock_of_a_bag(under_ours: World) -> None:
+    """As somebody does who looks at a bag, with everything running: rosparam, then rosbag."""
+    world = under_ours
+    bag = await record(world, world.unique("joints"), world.unique("text"))
+    info = await world.parse_yaml((await world.run("rosbag", "info", "--yaml", str(bag))).stdout)
+    async with world.node("ours", heartbeat=0.05) as node:
+        asleep = asyncio.create_task(node.sleep(3600))
+        assert node.now().to_sec() > info["end"]
+        await world.run("rosparam", "set", "/use_sim_time", "true")
+        await asleep
+        assert node.now() == Time()
+        ticking = asyncio.create_task(anext(node.rate(50)))
+        world.start("rosbag", "play", "-q", "--clock", "--hz=200", "-r", "0.1", str(bag))
+        now = await asyncio.wait_for(ticking, 15)
+        assert info["start"] - 1 < now.to_sec() < info["end"] + 1
+        asleep = asyncio.create_task(node.sleep(3600))
+        await world.run("rosparam", "set", "/use_sim_time", "false")
+        await asleep
+        assert node.now().to_sec() > info["end"]
 
 
 async def test_a_compressed_bag_of_a_rospy_talker(under_rosmaster: World) -> None:

@@ -26,6 +26,18 @@ async def test_a_node_that_does_not_want_it_keeps_its_own(make_node, ros_clock):
     assert node.now() > Time(1_000_000_000)
 
 
+async def test_a_node_that_was_there_before_the_clock(ros_master, make_node):
+    node = await make_node(heartbeat=0.01)
+    own = await make_node("own", heartbeat=0.01, use_sim_time=False)
+    async with SimulatedClock(ros_master.uri) as clock:
+        await clock.track(own)
+        await clock.track(node)
+        assert node.now() == Time(1)
+        await clock.advance(1)
+        assert node.now() == Time(2)
+    assert node.now() == Time(2)
+
+
 async def test_a_sleep_ends_when_its_time_has_come(ros_node, ros_clock):
     log = []
 

@@ -1,0 +1,79 @@
+"""Which time a node has: the parameter ``/use_sim_time``, and the topic ``/clock``.
+
+https://wiki.ros.org/Clock
+"""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from aioros1.errors import MasterUnreachable
+
+if TYPE_CHECKING:
+    from aioros1.node import Node
+
+__all__ = ["SimTime"]
+
+_RETRY = 1.0
+
+_SILENCE = 5.0
+"""Seconds without any time on ``/clock`` after which that is worth a warning."""
+
+
+class SimTime:
+    """Has the clock of a node show what ``/clock`` says, while that is wanted.
+
+    It is while ``/use_sim_time`` is true, unless the options of the node say for themselves.
+    A parameter that was deleted, or has gone with its master, says nothing: the node keeps
+    the time that it has.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._following: asyncio.Task[None] | None = None
+
+    async def ask(self) -> None:
+        """Ask which time is wanted, and go by that from now on.
+
+        With each heartbeat. A subscription to the parameter would be quicker; but masters
+        keep those of nodes that were killed for ever, and nothing cleans them up. Raises
+        :class:`~aioros1.MasterError`.
+        """
+        wanted = self._node.options.use_sim_time
+        if wanted is None:
+            wanted = await self._node.get_param("/use_sim_time", None)
+        if wanted is None or bool(wanted) is (self._following is not None):
+            return
+        clock = self._node._clock
+        if wanted:
+            clock.simulate()
+            self._following = self._node._spawn(self._follow, name=f"{self._node.name} clock")
+        elif self._following is not None:
+            self._following.cancel()
+            self._following = None
+            clock.stop_simulating()
+
+    async def _follow(self) -> None:
+        """Take the time from ``/clock``, as soon as the master lets us."""
+        while True:
+            try:
+                await self._take_time()
+            except MasterUnreachable:
+                await self._node._pause(_RETRY)
+            else:
+                return
+
+    async def _take_time(self) -> None:
+        clock = self._node._clock
+        async with self._node.subscribe("/clock", "rosgraph_msgs/Clock", queue_size=1) as sub:
+            try:
+                clock.set((await sub.get(timeout=_SILENCE)).clock)
+            except TimeoutError:
+                self._node.log.warning(
+                    "time is simulated, but nothing came on /clock in %g s: it stands at zero, "
+                    "and nothing that waits for it goes on",
+                    _SILENCE,
+                )
+            async for message in sub:
+                clock.set(message.clock)
