@@ -320,10 +320,12 @@ class ServiceCaller(Role, Generic[Q, A]):
         info = connection_info(stream, self.name, "b", peer, header)
         connection = _Connection(link, info)
         self._open.add(connection)
+        link.ended = lambda: self._drop(connection)  # also while nobody calls
         self._node._emit(PeerConnected("service caller", self.name, info))
         return connection
 
     def _drop(self, connection: _Connection) -> None:
+        connection.link.ended = None  # which would keep it until a collection of garbage
         connection.link.abort()
         if connection is self._kept:
             self._kept = None

@@ -91,3 +91,20 @@ async def test_a_persistent_caller_finds_a_provider_that_was_restarted(make_node
             await caller.wait_for_service(timeout=5)
             assert (await caller(data=True)).message == "new"
             assert caller.provider_uri == other.tcpros_uri
+
+
+async def test_an_idle_caller_notices_that_its_provider_is_gone(make_node):
+    node, other = await make_node(), await make_node("other")
+    async with node.service_caller("flip", SetBool, persistent=True, timeout=5) as caller:
+        async with other.advertise_service("flip", SetBool, lambda request: {"success": True}):
+            await caller.call(data=True)
+            (connection,) = caller.connections
+            events = node.events()
+        async with asyncio.timeout(5):
+            async for event in events:
+                if isinstance(event, aioros1.PeerDisconnected):
+                    break
+        assert (event.kind, event.connection) == ("service caller", connection)
+        assert caller.connections == ()
+        async with other.advertise_service("flip", SetBool, lambda request: {"success": True}):
+            assert (await caller.call(data=True)).success

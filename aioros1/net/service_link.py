@@ -47,6 +47,8 @@ class ServiceLink(asyncio.Protocol):
         self.at_once: Callable[[bytes], Any] | None = None
         """Is given each frame that is waited for, as long as what is written is taken. What
         it returns :meth:`receive` returns in place of the frame; with None it waits on."""
+        self.ended: Callable[[], None] | None = None
+        """Is called when the other side will send no more."""
         self._timer: asyncio.TimerHandle | None = None
         self._is_paused = False
         self._has_ended = False
@@ -208,6 +210,8 @@ class ServiceLink(asyncio.Protocol):
                 receiver.set_exception(self._failure)
             else:
                 receiver.set_result(None)
+        if self.ended is not None:
+            self.ended()
 
     def _set_timer(self, seconds: float | None) -> None:
         if self._timer is not None:
