@@ -48,7 +48,9 @@ class NodeThread:
 
     When the node is closed, by whomever, iterations end, and who waits or calls gets
     :class:`~aioros1.ClosedError`. A coroutine that does not end by itself then is
-    cancelled a second later. A program that never closes it does so on its way out.
+    cancelled a second later. A program that never closes it does so on its way out. A
+    process that was forked has neither the thread nor the node: there, too, uses raise
+    :class:`~aioros1.ClosedError`, and it makes one of its own.
     """
 
     def __init__(
@@ -101,7 +103,7 @@ class NodeThread:
         May be called any number of times, in any thread. ``timeout`` is as for
         :meth:`Node.close`. Called in the node's own thread it only begins to close.
         """
-        if self._thread is None:
+        if self._thread is None or self._is_left_behind:
             return
         self._started.exception()  # waits until it has started, or failed to
         with self._lock:
@@ -115,7 +117,7 @@ class NodeThread:
     @property
     def is_open(self) -> bool:
         """Whether it can be used."""
-        return self._is_open
+        return self._is_open and not self._is_left_behind
 
     def __enter__(self) -> Self:
         return self.start()
@@ -202,7 +204,17 @@ class NodeThread:
     def _is_inside(self) -> bool:
         return threading.current_thread() is self._thread
 
+    @property
+    def _is_left_behind(self) -> bool:
+        """Whether this process was forked off the one that has the thread."""
+        return self._is_open and self._thread is not None and not self._thread.is_alive()
+
     def _closed_error(self) -> ClosedError:
+        if self._is_left_behind:
+            return ClosedError(
+                f"node {self.node.name} is in the process that this one was forked from; "
+                "make a new one here"
+            )
         state = "closing" if self.node.state == "open" else self.node.state
         why = f" ({reason})" if (reason := self.node.close_reason) is not None else ""
         return ClosedError(f"node {self.node.name} is {state}, not open{why}")
@@ -225,10 +237,11 @@ class NodeThread:
     def _submit(self, awaitable: Awaitable[T], timeout: float | None, future: Future[T]) -> None:
         if not isinstance(awaitable, Awaitable):
             raise TypeError(f"expected an awaitable, got {awaitable!r}; call() is for functions")
-        with self._lock:
-            if self._is_open:
-                self._schedule(awaitable, timeout, future)
-                return
+        if not self._is_left_behind:  # where nobody would release the lock
+            with self._lock:
+                if self._is_open:
+                    self._schedule(awaitable, timeout, future)
+                    return
         _discard(awaitable)
         raise self._closed_error()
 

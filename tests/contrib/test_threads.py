@@ -6,6 +6,7 @@ import asyncio
 import collections
 import concurrent.futures
 import gc
+import os
 import queue
 import signal
 import subprocess
@@ -404,6 +405,17 @@ def test_closing_while_others_submit(make):
     assert all(each.result(PATIENCE) >= 0 for each in submitting)
 
 
+def run_program(program: str, uri: str, *options: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-W", "error", *options, "-X", "dev", "-c", program],
+        env={"PYTHONPATH": str(ROOT), "ROS_MASTER_URI": uri},
+        capture_output=True,
+        text=True,
+        timeout=30,
+        check=False,
+    )
+
+
 def test_a_program_that_forgets_to_close_it_does_so_on_its_way_out(master_uri):
     program = textwrap.dedent(
         """
@@ -412,14 +424,45 @@ def test_a_program_that_forgets_to_close_it_does_so_on_its_way_out(master_uri):
         ros.run(ros.node.advertise("chatter", "std_msgs/String"))
         """
     )
-    result = subprocess.run(
-        [sys.executable, "-W", "error", "-X", "dev", "-c", program],
-        env={"PYTHONPATH": str(ROOT), "ROS_MASTER_URI": master_uri},
-        capture_output=True,
-        text=True,
-        timeout=30,
-        check=False,
-    )
+    result = run_program(program, master_uri)
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
     with NodeThread("watch", master_uri=master_uri, rosout=False) as ros:
         assert "/chatter" not in ros.run(ros.node.graph.snapshot()).topics
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs os.fork")
+def test_a_process_that_was_forked_is_told_that_it_has_no_node(master_uri):
+    program = textwrap.dedent(
+        """
+        import asyncio, os, sys
+        import aioros1
+        from aioros1.contrib.threads import NodeThread
+
+        with NodeThread("parent", rosout=False) as ros:
+            ros.run(ros.node.advertise("chatter", "std_msgs/String"))
+            ros._lock.acquire()  # as a thread may that is just submitting something
+            pid = os.fork()
+            if not pid:
+                assert not ros.is_open
+                for use in (
+                    lambda: ros.run(asyncio.sleep(0)),
+                    lambda: ros.call(print),
+                    lambda: next(ros.iterate(ros.node.rate(1))),
+                ):
+                    try:
+                        use()
+                    except aioros1.ClosedError as error:
+                        print(error)
+                ros.close()
+                with NodeThread("child", rosout=False) as own:
+                    print(own.run(own.node.has_param("/run_id")))
+                sys.exit(3)
+            ros._lock.release()
+            assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 3
+            print(sorted(ros.run(ros.node.graph.snapshot()).nodes))
+        """
+    )
+    result = run_program(program, master_uri, "-W", "ignore:.*fork:DeprecationWarning")
+    told = "node /parent is in the process that this one was forked from; make a new one here"
+    assert result.stdout.splitlines() == [told, told, told, "True", "['/parent']"]
+    assert (result.returncode, result.stderr) == (0, "")
