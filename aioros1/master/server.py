@@ -253,6 +253,10 @@ class Master:
     ) -> None:
         await self.close()
 
+    def __repr__(self) -> str:
+        state = "open" if self.is_open else "closed" if self._closing is not None else "new"
+        return f"<Master at {self._uri or f'port {self._port}'}, {state}>"
+
     def __del__(self) -> None:
         if getattr(self, "_uri", "") and self._closing is None:
             warnings.warn(

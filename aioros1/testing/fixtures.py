@@ -44,6 +44,12 @@ def _why_not(request: pytest.FixtureRequest) -> str | None:
     if plugin is None or not config.pluginmanager.is_registered(plugin):
         return "they need pytest-asyncio, which is not loaded; pip install pytest-asyncio"
     marker = request.node.get_closest_marker("asyncio")
+    unittest = sys.modules.get("unittest")
+    if request.cls is not None and unittest and issubclass(request.cls, unittest.TestCase):
+        return (
+            "the test is one of unittest, which runs it in an event loop of its own; open "
+            "aioros1.Master and aioros1.Node in asyncSetUp(), with enterAsyncContext()"
+        )
     if marker is None:
         kind = "anyio runs this test" if "anyio_backend" in request.fixturenames else "it is not"
         return (

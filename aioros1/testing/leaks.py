@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import functools
 import gc
 import os
 import socket
@@ -12,7 +13,7 @@ import sys
 import threading
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 __all__ = ["LeakCheck"]
@@ -42,6 +43,7 @@ class LeakCheck:
     """
 
     def __init__(self) -> None:
+        _open_pipe_of_uvloop()
         self._threads = set(threading.enumerate())
         self._files = set(_open_files())
         self._found: list[str] = []
@@ -69,6 +71,7 @@ class LeakCheck:
         while (self._new_files() or self._new_threads()) and time.monotonic() < end:
             time.sleep(0.01)
         if self._new_files() or self._new_threads():
+            self._found[:0] = _unclosed_masters(self._new_files())
             # Of what is only garbage, only that is a leak which complains that nobody closed it.
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always", ResourceWarning)
@@ -105,6 +108,17 @@ def _unclosed(tasks: set[asyncio.Task[Any]]) -> Iterator[str]:
                 yield f"never closed: {each!r}"
 
 
+def _unclosed_masters(files: list[_File]) -> Iterator[str]:
+    """The masters that listen at one of ``files``."""
+    server = sys.modules.get("aioros1.master.server")
+    names = [_own_name(number) for number, *_ in files]
+    ports = {name[1] for name in names if isinstance(name, tuple)}
+    if ports and server is not None:
+        for each in gc.get_objects():
+            if issubclass(type(each), server.Master) and each.is_open and each.port in ports:
+                yield f"never closed: {each!r}"
+
+
 async def _executor_prefix() -> str | None:
     """How the names of the threads of the loop's executor begin, whatever loop it is."""
     running = asyncio.get_running_loop().run_in_executor(None, threading.current_thread)
@@ -133,6 +147,17 @@ def _open_files() -> Iterator[_File]:
         return
 
 
+def _open_pipe_of_uvloop() -> None:
+    """The first loop of it, in whatever test, opens a pipe for signals that the process keeps."""
+    if (uvloop := sys.modules.get("uvloop")) is not None:
+        _make_and_close(uvloop.new_event_loop)
+
+
+@functools.cache
+def _make_and_close(new_event_loop: Callable[[], asyncio.AbstractEventLoop]) -> None:
+    new_event_loop().close()
+
+
 def _pipes_of_multiprocessing() -> set[Any]:
     """To the helpers that it starts once, for all processes to come, and keeps."""
     helpers = {
@@ -157,12 +182,17 @@ def _socket(number: int) -> socket.socket | None:
         return None
 
 
+def _own_name(number: int) -> Any:
+    """Where the socket with this number is bound; ``None`` if it is no socket."""
+    if (copy := _socket(number)) is None:
+        return None
+    with copy:
+        return copy.getsockname()
+
+
 def _is_nameless(number: int) -> bool:
     """Whether it is one of a pair of sockets, as uvloop has while it runs."""
-    if (copy := _socket(number)) is None:
-        return False
-    with copy:
-        return copy.getsockname() in ("", b"")
+    return _own_name(number) in ("", b"")
 
 
 def _describe(number: int) -> str:

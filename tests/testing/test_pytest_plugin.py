@@ -130,6 +130,13 @@ async def test_two(ros_node, loop, no_leaks):
 
 ANYIO = "@pytest.fixture\ndef anyio_backend(): pass\n"
 ONE = "async def test_it(ros_node): pass\n"
+UNITTEST = """
+import unittest
+
+@pytest.mark.usefixtures("ros_node")
+class TestIt(unittest.IsolatedAsyncioTestCase):
+    async def test_it(self): pass
+"""
 
 
 @pytest.mark.parametrize(
@@ -149,8 +156,9 @@ ONE = "async def test_it(ros_node): pass\n"
             {},
             "*set asyncio_default_fixture_loop_scope = module",
         ),
+        (UNITTEST, {}, "*one of unittest, which *; open aioros1.Master * in asyncSetUp(), *"),
     ],
-    ids=["no plugin", "blocked", "no marker", "no coroutine", "anyio", "another loop"],
+    ids=["no plugin", "blocked", "no marker", "no coroutine", "anyio", "another loop", "unittest"],
 )
 def test_where_they_cannot_be_used_they_say_why(run, code, options, expected):
     result = run(code, **options)
@@ -187,6 +195,10 @@ LEAKS = {
     "a node": (
         "kept.append(await aioros1.Node('lost').start())",
         "*never closed: <Node /lost at http://*, open>",
+    ),
+    "a master": (
+        "kept.append(aioros1.Master(host='localhost', port=0)); await kept[-1].start()",
+        "*never closed: <Master at http://localhost:*/, open>",
     ),
     "a transport": (
         "kept.append(await asyncio.open_connection('127.0.0.1', port))",
@@ -320,6 +332,25 @@ async def test_leak(ros_node, no_leaks):
 """
     )
     result.stdout.fnmatch_lines(["*left behind by the test:", "*socket *: AF_INET *"])
+    result.assert_outcomes(passed=2, errors=1)
+
+
+@listed_files
+def test_what_the_first_event_loop_of_uvloop_opens_for_good_is_no_leak(run):
+    pytest.importorskip("uvloop")
+    result = run(
+        """
+import uvloop
+
+def test_it(no_leaks):
+    uvloop.run(asyncio.sleep(0))
+
+def test_leak(no_leaks):
+    uvloop.run(asyncio.sleep(0))
+    os.pipe()
+"""
+    )
+    result.stdout.fnmatch_lines(["*left behind by the test:", "*file *: pipe:*"])
     result.assert_outcomes(passed=2, errors=1)
 
 
