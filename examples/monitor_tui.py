@@ -87,4 +87,6 @@ class Rate:
 if __name__ == "__main__":
     if not sys.argv[1:]:
         raise SystemExit(__doc__)
-    Monitor(sys.argv[1:]).run()
+    monitor = Monitor(sys.argv[1:])
+    monitor.run()
+    sys.exit(monitor.return_code)

@@ -81,6 +81,7 @@ async def stream(request: web.Request) -> web.WebSocketResponse:
 async def forward(sub: aioros1.Subscriber, socket: web.WebSocketResponse) -> None:
     async for message in sub:
         await socket.send_json(message.to_dict(json=True))
+    await socket.close(code=WSCloseCode.GOING_AWAY)  # somebody has ended the node
 
 
 async def close_sockets(app: web.Application) -> None:

@@ -271,6 +271,14 @@ async def calls_add_two_ints(session: aiohttp.ClientSession, url: str, node: aio
                 assert response.status == 400
 
 
+async def streamed(socket: aiohttp.ClientWebSocketResponse, pub: aioros1.Publisher) -> object:
+    """What comes to a browser, once the subscriber of its socket is there."""
+    while True:
+        pub.publish(data="to the web")
+        with contextlib.suppress(TimeoutError):
+            return await socket.receive_json(timeout=0.2)
+
+
 async def test_web_app(master, make_node):
     port = free_port()
     url = f"http://localhost:{port}/chatter"
@@ -299,12 +307,7 @@ async def test_web_app(master, make_node):
         # Out of ROS, into the web.
         async with session.ws_connect(f"{url}/stream") as socket:
             await pub.wait_for_subscribers(2, timeout=PATIENCE)
-            received: list[object] = []
-            while not received:  # until the subscriber of this socket is there
-                pub.publish(data="to the web")
-                with contextlib.suppress(TimeoutError):
-                    received.append(await socket.receive_json(timeout=0.2))
-            assert received == [{"data": "to the web"}]
+            assert await streamed(socket, pub) == {"data": "to the web"}
             async with session.get(url) as response:
                 assert await response.json() == {"data": "to the web"}
 
@@ -313,6 +316,24 @@ async def test_web_app(master, make_node):
             while (await socket.receive(timeout=PATIENCE)).type != aiohttp.WSMsgType.CLOSE:
                 pass
         assert await app.ends() == 0
+        assert app.errors == ""
+
+
+async def test_web_app_ends_its_streams_when_somebody_ends_its_node(master, make_node):
+    port = free_port()
+    node = await make_node("tester")
+    async with (
+        node.advertise("chatter", "std_msgs/String") as pub,
+        aiohttp.ClientSession(timeout=aiohttp.ClientTimeout(PATIENCE)) as session,
+        example("web_app", str(port), uri=master.uri) as app,
+    ):
+        await app.says("Running on")
+        async with session.ws_connect(f"http://localhost:{port}/chatter/stream") as socket:
+            await streamed(socket, pub)
+            await (await node.peer("/web_app")).shutdown("enough")
+            while (await socket.receive(timeout=PATIENCE)).type != aiohttp.WSMsgType.CLOSE:
+                pass
+        assert await app.end(signal.SIGINT) == 0
         assert app.errors == ""
 
 
@@ -422,6 +443,12 @@ async def test_monitor_tui(master, make_node):
         assert app.return_code == 0
         # Leaving the screen has cancelled the worker, and that has closed the node.
         await node.graph.wait_for(lambda graph: set(graph.nodes) == {"/tester"}, timeout=PATIENCE)
+
+
+async def test_monitor_tui_without_a_master():
+    async with example("monitor_tui", "chatter", uri="http://localhost:1") as monitor:
+        assert await monitor.ends() == 1
+        assert "MasterUnreachable" in monitor.text + monitor.errors
 
 
 async def test_notebook():
