@@ -26,6 +26,9 @@ _TURNS = 5
 
 _DIRECTORIES = ("/proc/self/fd", "/dev/fd")
 
+_KINDS = (stat.S_IFSOCK, stat.S_IFIFO, stat.S_IFREG)
+"""Devices and what has no kind, as event loops have them, are left out."""
+
 _File = tuple[int, int, int]
 """Its number, and what tells it from others with that number before and after."""
 
@@ -140,10 +143,11 @@ def _open_files() -> Iterator[_File]:
         for name in names:
             # What was used for listing is closed again.
             with contextlib.suppress(OSError, ValueError):
-                status = os.fstat(int(name))
-                # Devices and what has no kind, as event loops have them, are left out.
-                if stat.S_IFMT(status.st_mode) in (stat.S_IFSOCK, stat.S_IFIFO, stat.S_IFREG):
-                    yield int(name), status.st_dev, status.st_ino
+                number = int(name)
+                status = os.fstat(number)
+                # The standard streams are turned to and fro by pytest.
+                if number > 2 and stat.S_IFMT(status.st_mode) in _KINDS:
+                    yield number, status.st_dev, status.st_ino
         return
 
 

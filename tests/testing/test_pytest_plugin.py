@@ -354,6 +354,22 @@ def test_leak(no_leaks):
     result.assert_outcomes(passed=2, errors=1)
 
 
+@listed_files
+def test_the_standard_streams_are_no_leak_when_a_test_is_interrupted(run):
+    result = run(
+        """
+import signal
+
+async def test_it(ros_node, no_leaks):
+    asyncio.get_running_loop().call_later(0.01, signal.raise_signal, signal.SIGINT)
+    await ros_node.wait_for_message("silence")
+"""
+    )
+    assert result.ret == pytest.ExitCode.INTERRUPTED
+    result.stdout.no_fnmatch_line("*left behind*")
+    result.stderr.no_fnmatch_line("*left behind*")
+
+
 def test_a_script_that_fails_fails_the_test(run):
     result = run(
         """
