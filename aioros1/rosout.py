@@ -93,6 +93,12 @@ class Rosout(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         try:
+            last_resort = logging.lastResort
+            if last_resort is not None and record.levelno >= last_resort.level:
+                handlers = _handlers(logging.getLogger(record.name))
+                # Without us logging would print it, and so it is with us, once.
+                if handlers[0] is self and all(isinstance(each, Rosout) for each in handlers):
+                    last_resort.handle(record)
             if getattr(record, "ros_node", self._node.name) != self._node.name:
                 return  # of a node whose name, and so its logger, is below ours
             fields = self._fields(record)
@@ -152,6 +158,15 @@ def _reaches(logger: logging.Logger, others: dict[logging.Logger, None]) -> bool
         if logger in others:
             return True
     return False
+
+
+def _handlers(logger: logging.Logger) -> list[logging.Handler]:
+    """All that the records of ``logger`` are given to, the nearest first."""
+    handlers = list(logger.handlers)
+    while logger.propagate and logger.parent is not None:
+        logger = logger.parent
+        handlers += logger.handlers
+    return handlers
 
 
 def _running_loop() -> asyncio.AbstractEventLoop | None:

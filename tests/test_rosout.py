@@ -256,6 +256,28 @@ async def test_a_record_that_cannot_be_formatted_is_told_and_hurts_nobody(
     assert "RuntimeError: no text" in errors
 
 
+async def test_what_no_handler_of_the_application_takes_is_printed_as_without_us(
+    make_node, capsys, monkeypatch
+):
+    """logging prints warnings of a program that has set up nothing, each once."""
+    names = ["test_silent"]
+    node = await make_node("worker", rosout=names)
+    await make_node("other", rosout=names)
+    app = logging.getLogger("test_silent")
+    for logger in (node.log.logger, app):
+        monkeypatch.setattr(logger, "propagate", False)  # pytest has handlers
+    for log in (node.log, app):
+        log.info("not shown")
+        log.warning("shown")
+    assert capsys.readouterr().err == "shown\nshown\n"
+    app.addHandler(handler := logging.NullHandler())
+    app.warning("the application has seen to it")
+    app.removeHandler(handler)
+    monkeypatch.setattr(logging, "lastResort", None)
+    app.warning("nor is it wanted")
+    assert capsys.readouterr().err == ""
+
+
 async def test_a_handler_that_logs_ends(make_node, heard):
     node = await make_node("worker", rosout=["test_echo"])
 
