@@ -29,6 +29,8 @@ class Identity:
     master_uri: str
     host: str | None
     """What others are told to connect to, if anything says."""
+    host_words: str
+    """What says so, as it was written: ``ROS_IP=10.0.0.2``."""
     remappings: Mapping[str, str]
     private_params: Mapping[str, Any]
 
@@ -70,6 +72,7 @@ class Identity:
             or _ENVIRONMENT.read("ROS_NAMESPACE", names.normalize_namespace)
             or "/"
         )
+        host, host_words = _host(host, special)
         return cls(
             base_name=base_name,
             namespace=namespace,
@@ -78,13 +81,8 @@ class Identity:
                 or special.read("__master", _check_uri)
                 or master_uri_of()
             ),
-            host=(
-                (_check_host(host) if host else None)
-                or special.read("__hostname", _check_host)
-                or special.read("__ip", _check_host)
-                or _ENVIRONMENT.read("ROS_HOSTNAME", _check_host)
-                or _ENVIRONMENT.read("ROS_IP", _check_host)
-            ),
+            host=host,
+            host_words=host_words,
             remappings=names.resolve_remappings(
                 {**arguments.remappings, **(remap or {})},
                 namespace,
@@ -123,7 +121,11 @@ class _Settings:
             return check(value)
         except ValueError as error:
             kind = InvalidNameError if isinstance(error, InvalidNameError) else ValueError
-            raise kind(f"{name}{self.assign}{value}: {error}") from None
+            raise kind(f"{self.words(name)}: {error}") from None
+
+    def words(self, name: str) -> str:
+        """A value that is set, and its name, as it was written."""
+        return f"{name}{self.assign}{self.values[name]}"
 
 
 _ENVIRONMENT = _Settings(os.environ, "=")
@@ -149,6 +151,20 @@ def _check_uri(uri: str) -> str:
     if not valid:
         raise ValueError(f"master URI {uri!r}: expected http://host:port")
     return uri
+
+
+def _host(argument: str | None, special: _Settings) -> tuple[str | None, str]:
+    """What others are told to connect to, and what says so."""
+    if argument:
+        return _check_host(argument), f"host={argument!r}"
+    for settings, name in (
+        *((special, "__hostname"), (special, "__ip")),
+        *((_ENVIRONMENT, "ROS_HOSTNAME"), (_ENVIRONMENT, "ROS_IP")),
+    ):
+        host = settings.read(name, _check_host)
+        if host is not None:
+            return host, settings.words(name)
+    return None, ""
 
 
 def _check_host(host: str) -> str:

@@ -151,7 +151,9 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self.namespace = identity.namespace
         self.name = identity.name
         self.master_uri = identity.master_uri
-        self._address = OwnAddress(identity.host, bind, identity.master_uri)
+        self._address = OwnAddress(
+            identity.host, bind, identity.master_uri, words=identity.host_words
+        )
         self._remappings = identity.remappings
         self._private_params = identity.private_params
         self._clock = Clock()
@@ -443,6 +445,8 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             self._clock.simulate()
         if not (master_is_there and await self._introduced()):
             self._spawn(self._introduce_later, name=f"{self.name} introduction")
+        if self._address.is_given:
+            self._spawn(self._check_address, name=f"{self.name} address")
         if self.options.rosout is not False:
             self._rosout = Rosout(self)
             self._spawn(self._rosout.run, name=f"{self.name} rosout")
@@ -450,6 +454,11 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             self._spawn(self._logger_levels.serve, name=f"{self.name} logger services")
         if self.options.heartbeat is not None:
             self._spawn(self._heartbeat.run, self.options.heartbeat, name=f"{self.name} heartbeat")
+
+    async def _check_address(self) -> None:
+        """Warn of an address that others can hardly use. Nobody waits for the look-up."""
+        if (doubt := await self._address.doubt()) is not None:
+            self.log.warning("%s", doubt)
 
     async def _introduce(self) -> None:
         """Say, and ask, what can only be once there is a master."""

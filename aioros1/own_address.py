@@ -21,18 +21,22 @@ __all__ = ["OwnAddress"]
 class OwnAddress:
     """The address of one node: the one it was given, or the one that faces its master.
 
-    ``given`` is what arguments and environment say, ``bind`` where to listen. One address
-    to listen on is one to tell.
+    ``given`` is what arguments and environment say, and ``words`` how they say it; ``bind``
+    is where to listen. One address to listen on is one to tell.
     """
 
-    def __init__(self, given: str | None, bind: str | None, master_uri: str) -> None:
+    def __init__(
+        self, given: str | None, bind: str | None, master_uri: str, *, words: str = ""
+    ) -> None:
+        self._words = words
         self._master = urlsplit(master_uri).hostname or "localhost"
         self._bind = bind
         if given is None and bind is not None and not is_wildcard(bind):
             given = bind
         if given is None and is_loopback(self._master):
             given = self._master
-        self._is_given = given is not None
+        self.is_given = given is not None
+        """Whether something says it, and it has not to be found."""
         self.host = given
         """What others are told; None before :meth:`find`."""
 
@@ -42,17 +46,40 @@ class OwnAddress:
             self.host = await self._facing() or "localhost"
         if self._bind is not None:
             return self._bind
-        if self._is_given:
+        if self.is_given:
             return bind_address_for(self.host)
         # Also when there is no network yet, and therefore nothing to tell but localhost.
         return every_interface(self.host)
+
+    async def doubt(self) -> str | None:
+        """What seems to be wrong with an address that was given, if anything does.
+
+        A name is looked up, which takes as long as it takes. It is no error: this machine
+        may have a name that only others know, and an address that only a router knows.
+        """
+        host = self.host
+        if not self.is_given or host is None or is_loopback(host):
+            return None
+        try:
+            addresses = [address for _, address in await resolve(host)]
+        except OSError as error:
+            what = f"{host!r} cannot be looked up here ({error.strerror or error})"
+        else:
+            if any(is_local(address) for address in addresses):
+                return None
+            known = "" if addresses == [host] else f" is {', '.join(addresses)}, which"
+            what = f"{host!r}{known} is no address of this machine"
+        return (
+            f"{self._words}: {what}, and others are told to connect there; "
+            "expected a name or an address by which they reach this machine"
+        )
 
     async def successor(self) -> str | None:
         """What to tell now, if the address that was told is this machine's no more.
 
         As long as it is, others can go on using it, whatever faces the master now.
         """
-        if self._is_given or self.host is None or is_local(self.host):
+        if self.is_given or self.host is None or is_local(self.host):
             return None
         return await self._facing()
 

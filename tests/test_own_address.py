@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
+import socket
+
 import pytest
+
+import aioros1
 
 from aioros1 import own_address
 from aioros1.own_address import OwnAddress
@@ -76,3 +82,85 @@ async def test_no_network_at_the_start_is_made_good(routes):
     assert address.host == "localhost"
     routes["192.0.2.1"] = "10.0.0.3"
     assert await address.successor() == "10.0.0.3"
+
+
+@pytest.fixture
+def names(monkeypatch: pytest.MonkeyPatch, routes: dict[str, str]) -> dict[str, list[str]]:
+    """What the names of hosts mean, as a test says; others cannot be looked up."""
+    routes["192.0.2.1"] = "10.0.0.2"
+    names: dict[str, list[str]] = {}
+
+    async def resolve(host: str) -> list[tuple[socket.AddressFamily, str]]:
+        if host[0].isdigit():
+            return [(socket.AF_INET, host)]
+        if host not in names:
+            raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
+        return [(socket.AF_INET, address) for address in names[host]]
+
+    monkeypatch.setattr(own_address, "resolve", resolve)
+    return names
+
+
+@pytest.mark.parametrize("given", ["localhost", "127.0.0.1", "::1", "10.0.0.2", "robot"])
+async def test_an_address_of_this_machine_is_not_doubted(names, given):
+    names["robot"] = ["10.9.9.9", "10.0.0.2"]
+    assert await OwnAddress(given, None, REMOTE).doubt() is None
+
+
+@pytest.mark.parametrize(
+    ("given", "what"),
+    [
+        ("no-such-host", "'no-such-host' cannot be looked up here (Name or service not known)"),
+        ("10.9.9.9", "'10.9.9.9' is no address of this machine"),
+        ("other", "'other' is 10.9.9.9, 10.9.9.8, which is no address of this machine"),
+    ],
+)
+async def test_an_address_that_others_can_hardly_use(names, given, what):
+    names["other"] = ["10.9.9.9", "10.9.9.8"]
+    address = OwnAddress(given, None, REMOTE, words=f"ROS_HOSTNAME={given}")
+    doubt = await address.doubt()
+    assert doubt is not None
+    assert doubt.startswith(f"ROS_HOSTNAME={given}: {what}, and others are told")
+
+
+async def test_an_address_that_was_found_is_not_doubted(names):
+    address = OwnAddress(None, None, REMOTE)
+    await address.find()
+    names.clear()
+    assert await address.doubt() is None
+
+
+@pytest.mark.parametrize(
+    ("options", "variables", "words"),
+    [
+        ({"host": "nowhere"}, {"ROS_IP": "10.9.9.9"}, "host='nowhere'"),
+        ({"argv": ["__ip:=10.9.9.9", "__hostname:=nowhere"]}, {}, "__hostname:=nowhere"),
+        ({"argv": ["__ip:=nowhere"]}, {"ROS_HOSTNAME": "else"}, "__ip:=nowhere"),
+        ({}, {"ROS_HOSTNAME": "nowhere", "ROS_IP": "10.9.9.9"}, "ROS_HOSTNAME=nowhere"),
+        ({}, {"ROS_IP": "nowhere"}, "ROS_IP=nowhere"),
+    ],
+)
+async def test_a_node_starts_and_warns_with_the_words(
+    names, monkeypatch, caplog, options, variables, words
+):
+    for variable in ("ROS_HOSTNAME", "ROS_IP"):
+        monkeypatch.setenv(variable, variables.get(variable, ""))
+    async with asyncio.timeout(5):
+        async with aioros1.Node("demo", master_uri="http://localhost:9", **options) as node:
+            assert node.uri.startswith("http://nowhere:")
+            while not (found := [each for each in caplog.records if each.name == "ros.demo"]):
+                await asyncio.sleep(0.001)
+    (record,) = found
+    assert record.levelno == logging.WARNING
+    assert record.getMessage().startswith(f"{words}: 'nowhere' cannot be looked up here")
+
+
+async def test_a_slow_look_up_delays_neither_start_nor_end(names, monkeypatch):
+    async def resolve(host: str) -> list[tuple[socket.AddressFamily, str]]:
+        await asyncio.Event().wait()
+        raise AssertionError
+
+    monkeypatch.setattr(own_address, "resolve", resolve)
+    async with asyncio.timeout(5):
+        async with aioros1.Node("demo", master_uri="http://localhost:9", host="nowhere"):
+            pass
