@@ -146,7 +146,7 @@ def _check_uri(uri: str) -> str:
         parts = urlsplit(uri)
         host = parts.hostname or ""
         valid = parts.scheme == "http" and _is_host(host) and parts.port != 0
-    except ValueError:
+    except (ValueError, AttributeError):  # the latter for what is not a str
         valid = False
     if not valid:
         raise ValueError(f"master URI {uri!r}: expected http://host:port")

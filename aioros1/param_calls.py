@@ -90,16 +90,18 @@ class ParamCalls(ABC):
     async def delete_param(self, key: str) -> None:
         """Delete a parameter and all below it.
 
-        Raises :class:`KeyError` when it is not set, and
-        :class:`~aioros1.MasterUnreachable`. When it is cancelled it goes on, as
-        :meth:`set_param` does.
+        Raises :class:`KeyError` when it is not set, :class:`~aioros1.MasterUnreachable`, and
+        :class:`~aioros1.MasterError` for an answer that is none of a master. When it is
+        cancelled it goes on, as :meth:`set_param` does.
         """
         key = self._param_key(key)
         try:
             await self._change(key, {}, lambda: self.master.delete_param(key))
         except MasterUnreachable:
             raise
-        except MasterError:
+        except MasterError as error:
+            if error.__cause__ is not None:
+                raise  # which says nothing about the parameter
             raise KeyError(key) from None
 
     async def _change(
@@ -148,13 +150,16 @@ class ParamCalls(ABC):
         """The full key of the nearest parameter of that name: in the node's private
         namespace, then in its namespace and up to the root. None if there is none.
 
-        Raises :class:`~aioros1.MasterUnreachable`.
+        Raises :class:`~aioros1.MasterUnreachable`, and :class:`~aioros1.MasterError` for an
+        answer that is none of a master.
         """
         try:
             return await self.master.search_param(key)
         except MasterUnreachable:
             raise
-        except MasterError:
+        except MasterError as error:
+            if error.__cause__ is not None:
+                raise  # which says nothing about the parameter
             return None
 
     async def get_param_names(self) -> list[str]:

@@ -13,7 +13,7 @@ from aioros1.errors import (
     ClosedError,
     DeserializationError,
     HandshakeError,
-    MasterUnreachable,
+    MasterError,
     ServiceError,
     ServiceUnavailable,
 )
@@ -203,24 +203,29 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     async def is_available(self) -> bool:
         """Whether the service is registered and its provider answers for it."""
-        self._check_open()
-        try:
-            await probe(self._node, self.name)
-        except (ServiceError, HandshakeError, MasterUnreachable):
-            return False
-        return True
+        return await self._obstacle() is None
 
     async def wait_for_service(self, *, timeout: float | None = None) -> None:
         """Wait until :meth:`is_available`.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError`, which says what was in the way, after ``timeout``
+        seconds, and :class:`~aioros1.ClosedError`.
         """
         # The master tells nobody of new services, so there is nothing but to ask.
         backoff = Backoff(first=0.02, longest=0.5)
-        async with deadline(timeout, f"service {self.name} did not appear"):
-            while not await self.is_available():
+        async with deadline(timeout, f"service {self.name} did not appear") as limit:
+            while (obstacle := await self._obstacle()) is not None:
+                limit.why = obstacle
                 await self._node._pause(backoff.delay())
+
+    async def _obstacle(self) -> Exception | None:
+        """Why the service is not available; None when it is."""
+        self._check_open()
+        try:
+            await probe(self._node, self.name)
+        except (ServiceError, HandshakeError, MasterError) as error:
+            return error
+        return None
 
     # one call
 

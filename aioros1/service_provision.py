@@ -29,12 +29,18 @@ __all__ = ["agree", "look_up", "probe", "service_class_of", "type_of"]
 
 
 async def look_up(node: Node, service: str) -> str:
-    """The ``rosrpc://host:port`` that the master gives."""
+    """The ``rosrpc://host:port`` that the master gives.
+
+    Raises :class:`~aioros1.ServiceNotFound`, and :class:`~aioros1.MasterError` for an answer
+    that is none of a master.
+    """
     try:
         return await node.master.lookup_service(service)
     except MasterUnreachable:
         raise
     except MasterError as error:
+        if error.__cause__ is not None:
+            raise  # which says nothing about the service
         raise ServiceNotFound(f"service {service}: no provider: {error.status}") from error
 
 

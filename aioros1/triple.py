@@ -43,7 +43,7 @@ async def call_triple(
     try:
         answer = await client.call(uri, method, *params, timeout=timeout)
     except XmlRpcFault as fault:
-        raise refused(fault.code, fault.text) from fault
+        raise refused(fault.code, f"{method} at {uri}: {fault.text}") from fault
     except XmlRpcError as error:
         whose = "master" if refused is MasterError else "node"
         raise refused(-1, f"{error}; expected the answer of a ROS {whose}") from error

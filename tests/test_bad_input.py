@@ -106,6 +106,7 @@ def test_hosts_that_may_be_some(host):
     [
         *("rubbish", "robot:11311", "https://robot:1", "ftp://robot:1", "http://", "http://[::1"),
         *("http://robot:x", "http://robot:0", "http://robot:99999", "http://a b:1"),
+        *(b"http://robot:1", 11311),
     ],
 )
 async def test_what_is_no_uri_of_a_master(uri):
@@ -135,6 +136,13 @@ NO_TRIPLE = (
     "</methodResponse>"
 )
 
+FAULT = (
+    "<?xml version='1.0'?><methodResponse><fault><value><struct>"
+    "<member><name>faultCode</name><value><int>7</int></value></member>"
+    "<member><name>faultString</name><value><string>no such method</string></value></member>"
+    "</struct></value></fault></methodResponse>"
+)
+
 
 @pytest.mark.parametrize(
     ("status", "body", "kind", "why"),
@@ -145,8 +153,9 @@ NO_TRIPLE = (
         (404, "", "text/plain", "HTTP status 404 Not Found; expected the answer of a ROS master"),
         (501, "", "text/plain", "HTTP status 501"),
         (200, NO_TRIPLE, "text/xml", "expected [code, status, value], got 'hello'"),
+        (200, FAULT, "text/xml", "no such method (code 7)"),
     ],
-    ids=["page", "text", "nothing", "404", "501", "xmlrpc"],
+    ids=["page", "text", "nothing", "404", "501", "xmlrpc", "fault"],
 )
 async def test_a_web_server_that_is_no_master(status, body, kind, why):
     async with (
@@ -162,10 +171,18 @@ async def test_a_web_server_that_is_no_master(status, body, kind, why):
                 await wait()
             assert f"no master at {uri} within 0.2 s: getPid at {uri}: " in str(late.value)
             assert why in str(late.value)
+        with pytest.raises(TimeoutError, match="service /flip did not appear within") as late:
+            await node.wait_for_service("flip", timeout=0.2)
+        assert f"lookupService at {uri}: " in str(late.value)
+        assert why in str(late.value)
         uses = {
             "registerPublisher": lambda: node.advertise("chatter", "std_msgs/String"),
             "getParam": lambda: node.get_param("rate"),
-            "lookupService": lambda: node.master.lookup_service("/flip"),
+            "searchParam": lambda: node.search_param("rate"),
+            "deleteParam": lambda: node.delete_param("rate"),
+            "lookupService": lambda: node.call("flip", "std_srvs/Empty"),
+            "lookupNode": lambda: node.peer("/other"),
+            "getSystemState": node.graph.snapshot,
         }
         for method, use in uses.items():
             with pytest.raises(aioros1.MasterError) as caught:

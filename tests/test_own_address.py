@@ -9,7 +9,6 @@ import socket
 import pytest
 
 import aioros1
-
 from aioros1 import own_address
 from aioros1.own_address import OwnAddress
 
