@@ -133,6 +133,8 @@ class EventStream(Generic[T]):
     """An asynchronous iterator over the items of a :class:`Broadcast`."""
 
     def __init__(self, size: int) -> None:
+        self.dropped = 0
+        """Items that were lost, because they were not taken and others came."""
         self._queue: deque[T] = deque(maxlen=size)
         self._waiters = Waiters()
         self._closed = False
@@ -148,6 +150,7 @@ class EventStream(Generic[T]):
         return self._queue.popleft()
 
     def _put(self, item: T) -> None:
+        self.dropped += len(self._queue) == self._queue.maxlen
         self._queue.append(item)
         self._waiters.wake()
 

@@ -111,8 +111,11 @@ class Graph:
 
     def changes(self, poll: float = 1.0) -> GraphChanges:
         """Iterate over what has changed since the iteration began, looking every ``poll``
-        seconds. Ends when the node is closed."""
-        return GraphChanges(self, poll)
+        seconds. Ends when the node is closed.
+
+        Raises :class:`ValueError` for a ``poll`` that is not positive.
+        """
+        return GraphChanges(self, _positive(poll))
 
     async def wait_for(
         self,
@@ -123,9 +126,11 @@ class Graph:
     ) -> GraphSnapshot:
         """Wait until ``predicate(snapshot)`` is true, and return that snapshot.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.MasterError` and :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError` after ``timeout`` seconds, :class:`~aioros1.MasterError`,
+        :class:`~aioros1.ClosedError`, what ``predicate`` raises, and :class:`ValueError` for a
+        ``poll`` that is not positive.
         """
+        _positive(poll)
         async with deadline(timeout, "the graph did not become as wanted"):
             while not predicate(snapshot := await self.snapshot()):
                 await self._node._pause(poll)
@@ -169,3 +174,9 @@ class GraphChanges:
     async def aclose(self) -> None:
         """End the iteration. There is no need to: nothing is held."""
         self._has_ended = True
+
+
+def _positive(poll: float) -> float:
+    if not poll > 0:
+        raise ValueError(f"poll: expected a positive number of seconds, got {poll!r}")
+    return poll

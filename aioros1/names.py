@@ -147,14 +147,17 @@ def resolve_remappings(
 ) -> dict[str, str]:
     """Remappings with both sides resolved, as :func:`resolve_name` wants them.
 
-    Raises as :func:`validate` does.
+    Raises as :func:`validate` does, with the remapping.
     """
-    return {
-        _resolve(validate(source, "name to remap"), namespace, node_name): _resolve(
-            validate(target, "name to remap to"), namespace, node_name
-        )
-        for source, target in remappings.items()
-    }
+    resolved = {}
+    for source, target in remappings.items():
+        try:
+            key = _resolve(validate(source, "name to remap"), namespace, node_name)
+            value = _resolve(validate(target, "name to remap to"), namespace, node_name)
+        except InvalidNameError as error:
+            raise InvalidNameError(f"{source}:={target}: {error}") from None
+        resolved[key] = value
+    return resolved
 
 
 def resolve_from(name: str, caller_id: str) -> str:
@@ -221,7 +224,7 @@ def parse_args(argv: Iterable[str]) -> Arguments:
         elif value:
             arguments.remappings[name] = value
         else:
-            raise InvalidNameError(f"{word!r} remaps {name!r} to nothing: expected a name")
+            raise InvalidNameError(f"{word}: {name!r} is remapped to nothing: expected a name")
     return arguments
 
 

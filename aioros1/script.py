@@ -41,8 +41,9 @@ def run(
 
     SIGINT and SIGTERM close the node. Loops over roles and rates end then, and with
     them, usually, ``main``; if it does not, it is cancelled, and None is returned. A
-    second signal cancels it at once. Only for scripts: this is the one place of the
-    library that touches signals.
+    second signal cancels it at once. While the node still starts, a signal ends that, and
+    None is returned. Only for scripts: this is the one place of the library that touches
+    signals.
     """
     if name is None:
         name = Path(sys.argv[0]).stem or "aioros1"
@@ -52,34 +53,37 @@ def run(
 
 
 async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T | None:
-    async with node:
-        task = asyncio.create_task(main(node), name="main")
-        signals = _Signals(node, task)
-        try:
-            await asyncio.wait({task})
-        except asyncio.CancelledError:
-            task.cancel()
-            # While the node is open, for it may be needed to clean up.
-            with contextlib.suppress(Exception, asyncio.CancelledError):
-                await task
-            raise
-        finally:
-            signals.release()
+    signals = _Signals(node)
     try:
+        async with node:
+            signals.main = task = asyncio.create_task(main(node), name="main")
+            try:
+                await asyncio.wait({task})
+            except asyncio.CancelledError:
+                task.cancel()
+                # While the node is open, for it may be needed to clean up.
+                with contextlib.suppress(Exception, asyncio.CancelledError):
+                    await task
+                raise
         return await task
     except (asyncio.CancelledError, ClosedError):
         if signals.received:
             return None
         raise
+    finally:
+        signals.release()
 
 
 class _Signals:
-    """What SIGINT and SIGTERM mean while a script runs."""
+    """What SIGINT and SIGTERM mean while a script runs, from the start of its node to the
+    end of its closing."""
 
-    def __init__(self, node: Node, main: asyncio.Task[Any]) -> None:
+    def __init__(self, node: Node) -> None:
         self.received = False
+        self.main: asyncio.Task[Any] | None = None
+        """None while the node is started, which is then given up."""
         self._node = node
-        self._main = main
+        self._starting = asyncio.current_task()
         self._loop = asyncio.get_running_loop()
         self._ending: asyncio.Task[None] | None = None
         self._numbers: list[signal.Signals] = []
@@ -94,16 +98,19 @@ class _Signals:
             self._loop.remove_signal_handler(number)
 
     def _receive(self) -> None:
-        if self.received:
-            self._main.cancel()
+        again, self.received = self.received, True
+        if self.main is None:
+            if not again and self._starting is not None:
+                self._starting.cancel()
+        elif again:
+            self.main.cancel()
         else:
-            self.received = True
-            self._ending = self._loop.create_task(self._end(), name="end")
+            self._ending = self._loop.create_task(self._end(self.main), name="end")
 
-    async def _end(self) -> None:
+    async def _end(self, main: asyncio.Task[Any]) -> None:
         await self._node.close()
-        await asyncio.wait({self._main}, timeout=_GRACE)
-        self._main.cancel()
+        await asyncio.wait({main}, timeout=_GRACE)
+        main.cancel()
 
 
 async def wait_for_master(uri: str | None = None, *, timeout: float | None = None) -> None:

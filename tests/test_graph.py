@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from aioros1.graph import GraphNode, GraphSnapshot
 
 SNAPSHOT = GraphSnapshot(
@@ -38,3 +40,21 @@ async def test_a_snapshot_of_a_living_graph(make_node):
         assert snapshot.edges == {("/one", "/a", "/two")}
         assert snapshot.node("/two").subscribes == {"/a"}
     assert (await one.graph.snapshot()).edges == frozenset()
+
+
+@pytest.mark.parametrize("poll", [0, -1, float("nan")])
+async def test_how_often_it_is_looked_at(make_node, poll):
+    node = await make_node()
+    with pytest.raises(ValueError, match=f"poll: expected a positive number .* got {poll}"):
+        node.graph.changes(poll=poll)
+    with pytest.raises(ValueError, match="poll"):
+        await node.graph.wait_for(lambda graph: True, poll=poll)
+
+
+async def test_what_a_predicate_raises_is_raised(make_node):
+    def predicate(graph):
+        raise LookupError("mine")
+
+    node = await make_node()
+    with pytest.raises(LookupError, match="mine"):
+        await node.graph.wait_for(predicate, timeout=5)

@@ -177,7 +177,7 @@ def test_arguments() -> None:
 
 
 def test_an_argument_that_remaps_to_nothing() -> None:
-    with pytest.raises(InvalidNameError, match="'a:='"):
+    with pytest.raises(InvalidNameError, match="a:=: 'a' is remapped to nothing"):
         parse_args(["a:="])
 
 

@@ -295,6 +295,23 @@ async def test_graph_snapshot_and_changes(make_node):
     await changes.aclose()
 
 
+async def test_events_that_are_not_taken_are_counted(make_node):
+    node = await make_node()
+    slow, quick = node.events(), node.events()
+    taken = []
+    async with node.advertise("first", String):
+        pass
+    while len(taken) < 1002:
+        async with node.advertise("chatter", String):
+            taken += [await anext(quick) for _ in range(2)]
+    await node.close()
+    missed = [event async for event in slow]
+    assert (len(missed), quick.dropped) == (1000, 0)
+    everything = taken + [event async for event in quick]
+    assert slow.dropped == len(everything) - 1000
+    assert missed == everything[-1000:]
+
+
 async def test_pid_run_id_and_options(make_node, master):
     node = await make_node("demo")
     assert node.pid == os.getpid()

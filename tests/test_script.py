@@ -69,6 +69,26 @@ async def test_a_main_that_does_not_end_is_cancelled(master):
 
 
 @pytest.mark.asyncio(loop_factories=["asyncio"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+async def test_a_signal_while_the_node_waits_for_its_master(number):
+    """One that takes the connection, and never answers."""
+    connected = asyncio.get_running_loop().create_future()
+    server = await asyncio.start_server(
+        lambda reader, writer: connected.set_result(writer), "127.0.0.1", 0
+    )
+    try:
+        port = server.sockets[0].getsockname()[1]
+        process = await start(STUBBORN, f"http://127.0.0.1:{port}")
+        writer = await asyncio.wait_for(connected, 20)
+        process.send_signal(number)
+        output, errors = await asyncio.wait_for(process.communicate(), 20)
+        assert (output, errors, process.returncode) == (b"ended None\n", b"", 0)
+        writer.close()
+    finally:
+        server.close()
+
+
+@pytest.mark.asyncio(loop_factories=["asyncio"])
 async def test_what_main_raises_is_raised(master):
     code = "import aioros1\nasync def main(node): raise LookupError('mine')\naioros1.run(main, 'x')"
     process = await start(code, master.uri)
