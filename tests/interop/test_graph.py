@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from typing import Any
 
 import pytest
 
 import aioros1
 
+from . import debian
+from .ours import take
 from .processes import Process, until
-from .world import World
+from .world import PEERS, World
 
 STRING = "std_msgs/String"
 SET_BOOL = "std_srvs/SetBool"
@@ -66,6 +69,41 @@ async def test_a_snapshot_is_what_rosnode_lists(under_each: World) -> None:
             assert {f" * {each}" for each in seen.provides} <= set(info.splitlines())
         ping = (await world.run("rosnode", "ping", "-a")).stdout
         assert f"xmlrpc reply from {node.uri}" in ping.replace("pinging", "")
+
+
+async def test_edges_are_those_of_rqt_graph(under_each: World) -> None:
+    """It draws what rosgraph has found out from the connections that each node tells."""
+    world = under_each
+    topic, other = world.unique("chatter"), world.unique("other")
+
+    async def edges() -> tuple[set[tuple[str, ...]], list[str]]:
+        record = json.loads((await world.run(debian.PYTHON, str(PEERS / "graph.py"))).stdout)
+        found = {tuple(edge) for edge in record["edges"]}
+        return {edge for edge in found if edge[1] in (topic, other)}, record["unreachable"]
+
+    async with (
+        world.node("one") as one,
+        world.node("two") as two,
+        one.advertise(other, STRING) as pub,
+        one.subscribe(topic, STRING) as sub,
+        two.subscribe(topic, STRING),
+        two.subscribe(other, STRING),
+        one.subscribe(other, STRING),
+    ):
+        name, process = await talker(world, "rospy", topic)
+        await world.rospy_ready("listener", other, STRING)
+        await pub.wait_for_subscribers(3, timeout=15)
+        await take(sub, 1)
+        mine = {edge for edge in (await one.graph.snapshot()).edges if edge[1] in (topic, other)}
+        assert len(mine) == 5
+
+        async def agrees() -> bool:
+            return await edges() == (mine, [])
+
+        await until(agrees, what=f"rosgraph to see {mine}")
+        await process.kill()  # the master is told nothing
+        assert (await one.graph.snapshot()).edges >= mine
+        assert (await edges())[1] == [name]
 
 
 async def peer_event(events: Any, kind: type[Any], topic: str) -> Any:
