@@ -208,11 +208,13 @@ def parse_args(argv: Iterable[str]) -> Arguments:
 
     Words such as ``--a:=b`` are no remappings and stay in ``rest``. The last of several
     assignments to one name wins. Raises :class:`InvalidNameError` for a remapping to
-    nothing (``a:=``).
+    nothing (``a:=``), and :class:`TypeError` for what is no list of words.
     """
+    if isinstance(argv, str | bytes):
+        raise TypeError(f"a command line is a list of words, not one: {argv!r}")
     arguments = Arguments()
     for word in argv:
-        match = _ASSIGNMENT.fullmatch(word)
+        match = _ASSIGNMENT.fullmatch(_text(word, "word of a command line"))
         if match is None:
             arguments.rest.append(word)
             continue

@@ -144,9 +144,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self.peer_definitions = MessageStore(parent=self.store)
         """Definitions that publishers sent: a store of their own, so that what a peer
         says is never found by who asks for a type by name."""
-        identity = Identity.of(
-            name, self.options.argv or (), namespace, master_uri, host, remap, anonymous
-        )
+        identity = Identity.of(name, argv or (), namespace, master_uri, host, remap, anonymous)
         self.base_name = identity.base_name
         self.namespace = identity.namespace
         self.name = identity.name

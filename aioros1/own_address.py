@@ -63,14 +63,18 @@ class OwnAddress:
         try:
             addresses = [address for _, address in await resolve(host)]
         except OSError as error:
-            what = f"{host!r} cannot be looked up here ({error.strerror or error})"
+            what = f"cannot be looked up here ({error.strerror or error})"
         else:
-            if any(is_local(address) for address in addresses):
+            if is_wildcard(host):
+                what = "stands for all addresses"
+            elif any(is_local(address) for address in addresses):
                 return None
-            known = "" if addresses == [host] else f" is {', '.join(addresses)}, which"
-            what = f"{host!r}{known} is no address of this machine"
+            elif addresses == [host]:
+                what = "is no address of this machine"
+            else:
+                what = f"is {', '.join(addresses)}, which is no address of this machine"
         return (
-            f"{self._words}: {what}, and others are told to connect there; "
+            f"{self._words}: {host!r} {what}, and others are told to connect there; "
             "expected a name or an address by which they reach this machine"
         )
 

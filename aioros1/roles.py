@@ -149,6 +149,8 @@ class Roles:
         node._check_open()
         name = node.resolve_name(name)
         service_class = node.store.resolve_srv(type)
+        if handler is not None and not callable(handler):
+            raise TypeError(f"service {name}: the handler is a function, got {handler!r}")
         while (other := self.providers.get(name)) is not None:
             if other.is_open:
                 raise ValueError(f"{node.name} provides service {name} already")

@@ -27,6 +27,8 @@ class Timer:
         *,
         oneshot: bool,
     ) -> None:
+        if not callable(callback):
+            raise TypeError(f"a timer calls a function, got {callback!r}")
         nanoseconds = to_nanoseconds(period)
         if not nanoseconds > 0:
             raise ValueError(f"the period of a timer must be positive, got {period!r}")

@@ -42,6 +42,20 @@ def test_words_of_a_command_line(word, error, parts):
         assert part in str(caught.value)
 
 
+@pytest.mark.parametrize("argv", ["_rate:=10", b"_rate:=10", [3], [b"_rate:=10"]])
+def test_what_is_no_command_line(argv):
+    with pytest.raises(TypeError, match=r"of a command line is a str|a list of words"):
+        aioros1.Node("demo", argv=argv)
+
+
+async def test_what_cannot_be_called(make_node):
+    node = await make_node()
+    with pytest.raises(TypeError, match="a timer calls a function, got 'tick'"):
+        node.timer(1, "tick")
+    with pytest.raises(TypeError, match="service /flip: the handler is a function, got 'flip'"):
+        await node.advertise_service("flip", "std_srvs/Empty", "flip")
+
+
 @pytest.mark.parametrize(
     ("variable", "value", "error", "expected"),
     [

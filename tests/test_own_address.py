@@ -111,6 +111,7 @@ async def test_an_address_of_this_machine_is_not_doubted(names, given):
     [
         ("no-such-host", "'no-such-host' cannot be looked up here (Name or service not known)"),
         ("10.9.9.9", "'10.9.9.9' is no address of this machine"),
+        ("0.0.0.0", "'0.0.0.0' stands for all addresses"),
         ("other", "'other' is 10.9.9.9, 10.9.9.8, which is no address of this machine"),
     ],
 )
