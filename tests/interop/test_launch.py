@@ -259,6 +259,36 @@ async def test_a_launch_prefix(tmp_path: Path) -> None:
         await launch.wait_told("ended")
 
 
+async def test_an_address_that_nobody_knows_is_said_on_the_screen(tmp_path: Path) -> None:
+    body = """
+      <node pkg="launched" type="talker.py" name="one" output="screen">
+        <env name="ROS_HOSTNAME" value="no-such-host.invalid"/>
+      </node>
+    """
+    async with launched(tmp_path, body) as launch:
+        await launch.process.wait_text(
+            "^ROS_HOSTNAME=no-such-host.invalid: 'no-such-host.invalid' cannot be looked up here",
+            timeout=40,
+        )
+        await launch.wait_told("name")
+        await launch.stop()
+        await launch.wait_told("ended")
+
+
+async def test_two_launches_of_one_name(tmp_path: Path, our_master: aioros1.Master) -> None:
+    """The master tells the first node to end, and the second one stays."""
+    body = '<node pkg="launched" type="talker.py" name="one" output="screen"/>'
+    async with launched(tmp_path / "first", body, master=our_master.uri) as first:
+        await first.wait_told("name")
+        async with launched(tmp_path / "second", body, master=our_master.uri) as second:
+            await second.wait_told("name")
+            await first.wait_told("ended")
+            await first.process.wait_text("one-.*process has finished cleanly", running=False)
+            assert await second.world.who("publishers", "/chatter") == {"/one"}
+            await second.stop()
+        assert await first.world.traces("/one") == []
+
+
 async def test_what_is_wrong_is_said_on_the_screen(tmp_path: Path) -> None:
     body = '<node pkg="launched" type="wrong.py" name="one" output="screen" args="_list:=[1,"/>'
     async with launched(tmp_path, body) as launch:
