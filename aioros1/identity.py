@@ -146,6 +146,8 @@ def _check_uri(uri: str) -> str:
         parts = urlsplit(uri)
         host = parts.hostname or ""
         valid = parts.scheme == "http" and _is_host(host) and parts.port != 0
+        # Blanks around it and line ends in it are dropped by urlsplit, but not by others.
+        valid = valid and not any(map(str.isspace, uri))
     except (ValueError, AttributeError):  # the latter for what is not a str
         valid = False
     if not valid:

@@ -80,7 +80,8 @@ class ParamCalls(ABC):
         key = self._param_key(key)
         # What we tell is what arrives: a list for a tuple, and nothing that the caller can
         # still change. Limits are for what others send.
-        value = decode_response(encode_response(value), max_values=sys.maxsize)
+        document = encode_response(value, what=f"parameter {key}")
+        value = decode_response(document, max_values=sys.maxsize)
         await self._change(key, value, lambda: self.master.set_param(key, value))
 
     async def has_param(self, key: str) -> bool:

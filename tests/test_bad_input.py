@@ -56,6 +56,15 @@ async def test_what_cannot_be_called(make_node):
         await node.advertise_service("flip", "std_srvs/Empty", "flip")
 
 
+async def test_what_is_no_value_of_a_parameter(make_node):
+    node = await make_node()
+    with pytest.raises(
+        TypeError, match=r"parameter /arm\['joints'\]\[1\]: XML-RPC has no type for"
+    ):
+        await node.set_param("arm", {"joints": [1, object()]})
+    assert not await node.has_param("arm")
+
+
 @pytest.mark.parametrize(
     ("variable", "value", "error", "expected"),
     [
@@ -120,7 +129,7 @@ def test_hosts_that_may_be_some(host):
     [
         *("rubbish", "robot:11311", "https://robot:1", "ftp://robot:1", "http://", "http://[::1"),
         *("http://robot:x", "http://robot:0", "http://robot:99999", "http://a b:1"),
-        *(b"http://robot:1", 11311),
+        *(" http://robot:1", "http://robot:1\n", b"http://robot:1", 11311),
     ],
 )
 async def test_what_is_no_uri_of_a_master(uri):

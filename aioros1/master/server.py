@@ -116,7 +116,7 @@ class Master:
         given = {"/run_id": self._run_id, **_ROSCORE_PARAMS, **(params or {})}
         for key, value in given.items():
             # There and back: checked, copied, and of the types a node would have sent.
-            document = encode_response(value)
+            document = encode_response(value, what=f"parameter {key}")
             value = decode_response(document, max_values=limits.xmlrpc_values)
             self._parameters.set(resolve_from(key, "/"), value)
         self._client = XmlRpcClient(timeouts=timeouts, limits=limits)

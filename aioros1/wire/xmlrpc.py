@@ -97,10 +97,11 @@ def encode_call(method: str, params: Sequence[Any], *, max_depth: int = MAX_DEPT
     return "".join(out).encode()
 
 
-def encode_response(value: Any, *, max_depth: int = MAX_DEPTH) -> bytes:
-    """A ``<methodResponse>`` document that carries ``value``; raises as `encode_call`."""
+def encode_response(value: Any, *, what: str = "result", max_depth: int = MAX_DEPTH) -> bytes:
+    """A ``<methodResponse>`` document that carries ``value``, which is called ``what`` in
+    errors; raises as `encode_call`."""
     out = ["<?xml version='1.0'?><methodResponse><params><param>"]
-    _encode_root(value, out.append, "result", max_depth)
+    _encode_root(value, out.append, what, max_depth)
     out.append("</param></params></methodResponse>")
     return "".join(out).encode()
 

@@ -284,8 +284,9 @@ async def test_run_ids_differ() -> None:
     [({"a": None}, TypeError), ({"a": 1 << 31}, OverflowError), ({"/": 5}, TypeError)],
 )
 def test_parameters_that_cannot_be(params: Any, error: type[Exception]) -> None:
-    with pytest.raises(error):
+    with pytest.raises(error) as caught:
         Master(params=params)
+    assert next(iter(params)) in str(caught.value)
 
 
 @pytest.mark.parametrize(
