@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import threading
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from aioros1.errors import MasterError, RosError
@@ -33,6 +35,20 @@ def ros_level(number: int) -> int:
     return 1
 
 
+@dataclass(slots=True)
+class _Change:
+    """What has become of the level of one logger."""
+
+    before: int
+    after: int
+    wanted_by: set[LoggerLevels] = field(default_factory=set)
+
+
+# Of the process, as the loggers are: two of its nodes may have some in common.
+_changes: dict[logging.Logger, _Change] = {}
+_lock = threading.RLock()
+
+
 class LoggerLevels:
     """The levels of the loggers that are a node's business: its own, those in ``rosout``
     of its options, and all below these.
@@ -42,21 +58,33 @@ class LoggerLevels:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._changed: dict[logging.Logger, tuple[int, int]] = {}
-        """The level before the first change, and that of the last."""
 
     def set(self, logger: logging.Logger, level: int) -> None:
         """Change a level until :meth:`restore`."""
-        before, _ = self._changed.get(logger, (logger.level, level))
-        self._changed[logger] = before, level
-        logger.setLevel(level)
+        with _lock:
+            change = _changes.setdefault(logger, _Change(logger.level, level))
+            change.wanted_by.add(self)
+            change.after = level
+            logger.setLevel(level)
+
+    def set_default(self, logger: logging.Logger, level: int) -> None:
+        """Do that for a logger without a level; one that another node has set keeps it."""
+        with _lock:
+            if logger in _changes:
+                _changes[logger].wanted_by.add(self)
+            elif logger.level == logging.NOTSET:
+                self.set(logger, level)
 
     def restore(self) -> None:
-        """Undo the changes, but for what the application has changed meanwhile."""
-        while self._changed:
-            logger, (before, ours) = self._changed.popitem()
-            if logger.level == ours:
-                logger.setLevel(before)
+        """Undo the changes that no other node wants, but for what the application has
+        changed meanwhile."""
+        with _lock:
+            for logger, change in list(_changes.items()):
+                change.wanted_by.discard(self)
+                if not change.wanted_by:
+                    del _changes[logger]
+                    if logger.level == change.after:
+                        logger.setLevel(change.before)
 
     async def serve(self) -> None:
         """Provide ``~get_loggers`` and ``~set_logger_level`` as soon as the master lets us."""

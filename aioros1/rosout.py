@@ -46,9 +46,8 @@ class Rosout(logging.Handler):
         self._is_publishing = False
         self._is_scheduled = False
         own = node.log.logger
-        if own.level == logging.NOTSET:
-            # As rosout has it; what else the application shows is up to its handlers.
-            node._logger_levels.set(own, logging.INFO)
+        # As rosout has it; what else the application shows is up to its handlers.
+        node._logger_levels.set_default(own, logging.INFO)
         chosen = node.options.rosout
         names = () if isinstance(chosen, bool) else chosen
         loggers = dict.fromkeys([own, *map(logging.getLogger, names)])
