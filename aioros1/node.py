@@ -484,10 +484,14 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             await self.wait_for_master()
 
     async def _finish(self) -> None:
+        loop = asyncio.get_running_loop()
+        begin = loop.time()
+        if self._rosout is not None:
+            await self._rosout.settle(self._close_timeout)
         self._state = "closing"
         self._heartbeat.stop()
         self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))
-        await self._roles.close(self._close_timeout)
+        await self._roles.close(max(0, self._close_timeout - (loop.time() - begin)))
 
     async def _free(self) -> None:
         """Let go of all that is shared with others, whatever has become of it."""

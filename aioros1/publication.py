@@ -55,6 +55,8 @@ class Publication:
         self.is_congested = False
         """Whether messages wait in the queue of any connection."""
         self.has_subscribers = False
+        self.known_subscribers = 0
+        """Those that the master named when it was last told."""
         self.registration = node._roles.registration(
             "publisher", topic, self._register, self._unregister
         )
@@ -235,7 +237,10 @@ class Publication:
 
     async def _register(self) -> None:
         node = self._node
-        await node._registrar.register_publisher(self.name, self.message_class._type, node.uri)
+        uris = await node._registrar.register_publisher(
+            self.name, self.message_class._type, node.uri
+        )
+        self.known_subscribers = len(uris)
 
     async def _unregister(self) -> None:
         await self._node._registrar.unregister_publisher(self.name, self._node.uri)

@@ -219,7 +219,7 @@ class Roles:
                 await asyncio.gather(self._close_roles(), self._end(only_unfinished=True))
                 await self._end()
         except TimeoutError:
-            self._node.log.warning("closed without having told everybody in %s s", timeout)
+            self._node.log.warning("closed without having told everybody in %.3g s", timeout)
 
     async def _close_roles(self) -> None:
         rosout = self._node._rosout

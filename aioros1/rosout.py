@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from aioros1.errors import ClosedError, MasterError
 from aioros1.logger_levels import ros_level
 from aioros1.time import Time
+from aioros1.waiting import Waiters
 
 if TYPE_CHECKING:
     from aioros1.node import Node
@@ -24,8 +25,8 @@ _WAITING = 10_000
 """Records that wait to be published, at the most: of threads that log while the event loop
 is busy, and of a node without a master."""
 
-_FIRST_SUBSCRIBER = 1.0
-"""Seconds that the first records wait for somebody who wants them."""
+_FIRST_SUBSCRIBERS = 1.0
+"""Seconds that the first records wait for those who want them."""
 
 
 class Rosout(logging.Handler):
@@ -33,7 +34,7 @@ class Rosout(logging.Handler):
 
     What is logged in the loop of the node is published at once, what other threads log as
     soon as the loop comes to it. The first records wait until the topic is advertised and
-    has a subscriber; a node does not wait for that with its start.
+    has its subscribers; a node does not wait for that with its start.
     """
 
     def __init__(self, node: Node) -> None:
@@ -45,6 +46,10 @@ class Rosout(logging.Handler):
         self._is_ready = False
         self._is_publishing = False
         self._is_scheduled = False
+        self._has_topics = True
+        self._is_awaited = True
+        """Whether somebody may be about to hear the first records."""
+        self._progress = Waiters()
         own = node.log.logger
         # As rosout has it; what else the application shows is up to its handlers.
         node._logger_levels.set_default(own, logging.INFO)
@@ -61,23 +66,45 @@ class Rosout(logging.Handler):
         for logger in self._loggers:
             logger.removeHandler(self)
         self._is_ready = False
+        self._waiting.clear()
+        self._expect(False)
         super().close()
 
     async def run(self) -> None:
         """Advertise ``/rosout`` as soon as the master lets us, and publish what waits."""
-        publisher = None
-        while publisher is None:
+        while self._publisher is None:
             try:
-                publisher = await self._node.advertise(
-                    "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
-                )
+                await self._advertise()
             except MasterError:
+                self._expect(False)
                 await self._node._pause(_RETRY)
-        self._publisher = publisher
+        known = self._publisher._publication.known_subscribers
+        self._expect(known > 0)
         with contextlib.suppress(TimeoutError):
-            await publisher.wait_for_subscribers(timeout=_FIRST_SUBSCRIBER)
+            await self._publisher.wait_for_subscribers(max(1, known), timeout=_FIRST_SUBSCRIBERS)
         self._is_ready = True
         self._publish_waiting()
+        self._expect(False)
+
+    async def _advertise(self) -> None:
+        node = self._node
+        # As roscpp and rospy, whose messages may be smaller for it; a bool, as roscpp wants it.
+        disabled = await node.get_param("/rosout_disable_topics_generation", False)
+        self._has_topics = disabled is not True
+        self._publisher = await node.advertise(
+            "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
+        )
+
+    def _expect(self, is_awaited: bool) -> None:
+        self._is_awaited = is_awaited
+        self._progress.wake()
+
+    async def settle(self, timeout: float) -> None:
+        """Before the node closes: let those hear the first records who are about to."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(min(timeout, _FIRST_SUBSCRIBERS)):
+                while self._waiting and self._is_awaited:
+                    await self._progress.wait()
 
     def uses(self, role: object) -> bool:
         """Whether it is the publisher of ``/rosout``."""
@@ -141,8 +168,9 @@ class Rosout(logging.Handler):
             return
         self._is_publishing = True
         try:
-            while self._waiting:
-                topics = sorted(self._node._roles.publications)
+            topics = sorted(self._node._roles.publications) if self._has_topics else []
+            # Not those that threads add meanwhile, or a busy one would hold up the loop.
+            for _ in range(len(self._waiting)):
                 publisher.publish(topics=topics, **self._waiting.popleft())
         except ClosedError:
             self._waiting.clear()  # the last words of a node that is closed go elsewhere

@@ -116,6 +116,32 @@ async def test_a_node_does_not_speak_for_one_below_its_name(make_node, heard):
     ]
 
 
+async def test_a_burst_is_relayed_whole(make_node):
+    """roscore's rosout has queues without an end."""
+    async with (
+        aioros1.Master(host="localhost", port=0) as master,
+        aioros1.Node("viewer", master_uri=master.uri, rosout=False) as viewer,
+        viewer.subscribe("/rosout_agg", LOG, queue_size=10_000) as sub,
+        aioros1.Node("worker", master_uri=master.uri, rosout=False) as worker,
+        worker.advertise("/rosout", LOG, queue_size=3000) as pub,
+    ):
+        await pub.wait_for_subscribers(timeout=5)
+        await sub.wait_for_publishers(timeout=5)
+        for number in range(3000):
+            pub.publish(line=number)
+        assert [each.line for each in await take(sub, 3000)] == list(range(3000))
+
+
+async def test_topics_are_left_out_where_the_graph_wants_that(make_node, heard):
+    other = await make_node("other")
+    for value, expected in ((True, []), (False, ["/rosout"])):
+        await other.set_param("/rosout_disable_topics_generation", value)
+        node = await make_node("worker", rosout=True)
+        node.log.info("hello")
+        assert (await heard.get(timeout=5)).topics == expected
+        await node.close()
+
+
 async def test_threads_lose_nothing(make_node, heard):
     node = await make_node("worker", rosout=["test_threads"])
     log = logging.getLogger("test_threads")
@@ -182,6 +208,38 @@ async def test_what_is_logged_while_the_node_closes_arrives(make_node, heard):
         "the loop has ended",
         "and its subscriber is closed",
     ]
+
+
+async def test_what_a_short_life_has_to_say_arrives_everywhere(make_node, heard, master):
+    other = await make_node("other")
+    async with other.subscribe("/rosout", LOG, queue_size=10) as sub:
+        async with aioros1.Node("brief", master_uri=master.uri, host="localhost") as node:
+            node.log.error("no such device")
+            node.log.info("the end")
+        for each in (heard, sub):
+            assert [record.msg for record in await take(each, 2)] == ["no such device", "the end"]
+
+
+async def test_a_short_life_ends_without_a_master_too():
+    async with aioros1.Node("brief", master_uri="http://localhost:1/", host="localhost") as node:
+        node.log.error("nobody is there")
+    assert node.log.logger.handlers == []
+
+
+async def test_a_known_subscriber_that_is_dead_does_not_hold_up_an_abort(make_node, monkeypatch):
+    monkeypatch.setattr("aioros1.rosout._FIRST_SUBSCRIBERS", 60)
+    other = await make_node("other")
+    await other.master.register_subscriber("/rosout", LOG, "http://localhost:1/")
+    node = await make_node("brief", rosout=True, timeouts=aioros1.Timeouts(close=60))
+    node.log.info("hello")
+    while not node.roles:
+        await asyncio.sleep(0.001)
+    closing = asyncio.create_task(node.close())
+    while node.close_reason is None:
+        await asyncio.sleep(0.001)
+    node.abort()
+    await closing
+    assert node.state == "closed"
 
 
 SCRIPT = """
@@ -336,6 +394,30 @@ async def test_levels_come_back_unless_the_application_has_changed_them(make_nod
         await node.close()
         assert logger.level == (by_hand or logging.ERROR)
     logger.setLevel(logging.NOTSET)
+
+
+async def test_levels_stay_while_another_node_needs_them(make_node):
+    """As when a node of the same name takes the place of the first."""
+    first = await make_node("worker", rosout=True)
+    second = await make_node("worker", rosout=True)
+    await asyncio.wait_for(first.wait_closed(), 5)
+    assert second.log.isEnabledFor(logging.INFO)
+    await second.close()
+    assert second.log.logger.level == logging.NOTSET
+
+
+async def test_levels_come_back_when_the_last_node_has_closed(make_node):
+    logger = logging.getLogger("test_shared")
+    other = await make_node("other")
+    nodes = []
+    for name, level in (("one", "debug"), ("two", "error")):
+        nodes.append(await make_node(name, rosout=["test_shared"], logger_services=True))
+        service = f"/{name}/set_logger_level"
+        await other.wait_for_service(service, timeout=5)
+        await other.call(service, "roscpp/SetLoggerLevel", logger="test_shared", level=level)
+    for node, level in zip(nodes, (logging.ERROR, logging.NOTSET), strict=True):
+        await node.close()
+        assert logger.level == level
 
 
 async def test_log_levels_are_served(make_node):
