@@ -88,7 +88,7 @@ class Rosout(logging.Handler):
 
     async def _advertise(self) -> None:
         node = self._node
-        # As roscpp and rospy, whose messages may be smaller for it; a bool, as roscpp wants it.
+        # As rospy and roscpp have it: for nodes with many topics.
         disabled = await node.get_param("/rosout_disable_topics_generation", False)
         self._has_topics = disabled is not True
         self._publisher = await node.advertise(
@@ -119,14 +119,9 @@ class Rosout(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         try:
-            last_resort = logging.lastResort
-            if last_resort is not None and record.levelno >= last_resort.level:
-                handlers = _handlers(logging.getLogger(record.name))
-                # Without us logging would print it, and so it is with us, once.
-                if handlers[0] is self and all(isinstance(each, Rosout) for each in handlers):
-                    last_resort.handle(record)
-            if getattr(record, "ros_node", self._node.name) != self._node.name:
-                return  # of a node whose name, and so its logger, is below ours
+            self._print_if_nobody_does(record)
+            if self._is_of_another(record):
+                return
             fields = self._fields(record)
             is_here = _running_loop() is self._loop
             if is_here and self._is_publishing:
@@ -139,6 +134,23 @@ class Rosout(logging.Handler):
                     self._schedule()
         except Exception:  # a record that cannot be formatted, as every handler does
             self.handleError(record)
+
+    def _is_of_another(self, record: logging.LogRecord) -> bool:
+        """Whether it is of a node whose name, and so its logger, is below ours."""
+        own, name = self._node.log.logger.name, self._node.name
+        if f"{record.name}.".startswith(f"{own}."):
+            # The handler of the nearest node comes first.
+            record.__dict__.setdefault("ros_node", name)
+        return getattr(record, "ros_node", name) != name
+
+    def _print_if_nobody_does(self, record: logging.LogRecord) -> None:
+        """As logging does, which takes us for somebody who shows it."""
+        last_resort = logging.lastResort
+        if last_resort is not None and record.levelno >= last_resort.level:
+            handlers = _handlers(logging.getLogger(record.name))
+            # Once, and not for each node that hears of it.
+            if handlers[0] is self and all(isinstance(each, Rosout) for each in handlers):
+                last_resort.handle(record)
 
     def _fields(self, record: logging.LogRecord) -> dict[str, Any]:
         """What does not change any more, whatever the thread does next."""

@@ -109,9 +109,11 @@ async def test_a_node_does_not_speak_for_one_below_its_name(make_node, heard):
     inner = await make_node("arm", namespace="/robot", rosout=True)
     outer = await make_node("robot", rosout=True)
     inner.log.info("of the arm")
+    inner.log.logger.getChild("hand").info("of its hand")
     outer.log.info("of the robot")
-    assert [(each.name, each.msg) for each in await take(heard, 2)] == [
+    assert [(each.name, each.msg) for each in await take(heard, 3)] == [
         ("/robot/arm", "of the arm"),
+        ("/robot/arm", "of its hand"),
         ("/robot", "of the robot"),
     ]
 

@@ -111,3 +111,23 @@ async def test_rosservice_is_told_why(under_rosmaster: World) -> None:
             refused = await world.run(*setter, request, code=None)
             assert why in refused.text
     assert logging.getLogger("interop_strict").level == logging.NOTSET
+
+
+async def test_a_short_life_is_heard_by_everybody(under_rosmaster: World) -> None:
+    """Nothing waits for anybody but the end of the node, and nothing is lost."""
+    world = under_rosmaster
+    await rosout(world)
+    echoes = [world.start("rostopic", "echo", topic) for topic in ("/rosout", "/rosout_agg")]
+    async with world.node("talkative") as node:
+
+        def heard() -> bool:
+            node.log.info("ready")
+            return all("ready" in echo.stdout for echo in echoes)
+
+        await until(heard, what=echoes[1].report)
+    async with world.node("brief") as node:
+        for number in range(200):
+            node.log.info("number %d", number)
+    for echo in echoes:
+        await echo.wait_text(r'msg: "number 199"')
+        assert echo.stdout.count('msg: "number ') == 200
