@@ -72,12 +72,19 @@ class Rosout(logging.Handler):
 
     async def run(self) -> None:
         """Advertise ``/rosout`` as soon as the master lets us, and publish what waits."""
+        node = self._node
         while self._publisher is None:
             try:
-                await self._advertise()
+                self._publisher = await node.advertise(
+                    "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
+                )
             except MasterError:
                 self._expect(False)
-                await self._node._pause(_RETRY)
+                await node._pause(_RETRY)
+        # As rospy and roscpp have it: for nodes with many topics.
+        with contextlib.suppress(MasterError):
+            disabled = await node.get_param("/rosout_disable_topics_generation", False)
+            self._has_topics = disabled is not True
         known = self._publisher._publication.known_subscribers
         self._expect(known > 0)
         with contextlib.suppress(TimeoutError):
@@ -85,15 +92,6 @@ class Rosout(logging.Handler):
         self._is_ready = True
         self._publish_waiting()
         self._expect(False)
-
-    async def _advertise(self) -> None:
-        node = self._node
-        # As rospy and roscpp have it: for nodes with many topics.
-        disabled = await node.get_param("/rosout_disable_topics_generation", False)
-        self._has_topics = disabled is not True
-        self._publisher = await node.advertise(
-            "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
-        )
 
     def _expect(self, is_awaited: bool) -> None:
         self._is_awaited = is_awaited
