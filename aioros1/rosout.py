@@ -147,7 +147,7 @@ class Rosout(logging.Handler):
         if last_resort is not None and record.levelno >= last_resort.level:
             handlers = _handlers(logging.getLogger(record.name))
             # Once, and not for each node that hears of it.
-            if handlers[0] is self and all(isinstance(each, Rosout) for each in handlers):
+            if handlers[:1] == [self] and all(isinstance(each, Rosout) for each in handlers):
                 last_resort.handle(record)
 
     def _fields(self, record: logging.LogRecord) -> dict[str, Any]:
