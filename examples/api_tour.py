@@ -86,9 +86,9 @@ async def graph(node: aioros1.Node) -> None:
     print("topics:", ", ".join(sorted(snapshot.topics)))
 
     async with aioros1.Node("other", master_uri=node.master_uri, heartbeat=None) as other:
+        await node.graph.wait_for(lambda graph: other.name in graph.nodes, timeout=5)
         peer = await node.peer("/other")
         print("peer:", peer.uri, "has pid", await peer.get_pid())
-        await node.graph.wait_for(lambda graph: other.name in graph.nodes, timeout=5)
         print("its topics:", ", ".join(topic.name for topic in await peer.get_publications()))
         await peer.shutdown("the tour is over")
         print("it ended:", await other.wait_closed())
