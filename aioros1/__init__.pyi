@@ -1,6 +1,7 @@
 """The public names, for type checkers; ``__init__.py`` imports them when they are used."""
 
 from aioros1._version import __version__ as __version__
+from aioros1.api.peer import NodeProxy as NodeProxy
 from aioros1.connection import ConnectionInfo as ConnectionInfo
 from aioros1.connection import ConnectionStats as ConnectionStats
 from aioros1.errors import ClosedError as ClosedError
@@ -35,19 +36,18 @@ from aioros1.idl import load_srv as load_srv
 from aioros1.idl.importer import install_importer as install_importer
 from aioros1.idl.importer import uninstall_importer as uninstall_importer
 from aioros1.master import Master as Master
-from aioros1.merging import merge as merge
 from aioros1.node import Node as Node
 from aioros1.options import Limits as Limits
 from aioros1.options import Timeouts as Timeouts
-from aioros1.param_subscriber import ParamSubscriber as ParamSubscriber
-from aioros1.peer import NodeProxy as NodeProxy
-from aioros1.publisher import Publisher as Publisher
+from aioros1.roles.merging import merge as merge
+from aioros1.roles.param_subscriber import ParamSubscriber as ParamSubscriber
+from aioros1.roles.publisher import Publisher as Publisher
+from aioros1.roles.service_caller import ServiceCaller as ServiceCaller
+from aioros1.roles.service_provider import ServiceCall as ServiceCall
+from aioros1.roles.service_provider import ServiceProvider as ServiceProvider
+from aioros1.roles.subscriber import MessageEvent as MessageEvent
+from aioros1.roles.subscriber import Subscriber as Subscriber
 from aioros1.script import run as run
 from aioros1.script import wait_for_master as wait_for_master
-from aioros1.service_caller import ServiceCaller as ServiceCaller
-from aioros1.service_provider import ServiceCall as ServiceCall
-from aioros1.service_provider import ServiceProvider as ServiceProvider
-from aioros1.subscriber import MessageEvent as MessageEvent
-from aioros1.subscriber import Subscriber as Subscriber
 from aioros1.time import Duration as Duration
 from aioros1.time import Time as Time

@@ -10,21 +10,28 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from aioros1 import names
-from aioros1.acceptor import Acceptor
-from aioros1.clock import Clock
+from aioros1.api.master_proxy import MasterProxy
+from aioros1.api.peer import NodeProxy
+from aioros1.api.slave_api import SlaveApi
+from aioros1.clock.clock import Clock
+from aioros1.clock.rate import Rate, period_of
+from aioros1.clock.sim_time import SimTime
+from aioros1.clock.timer import Timer
 from aioros1.errors import ClosedError, MasterUnreachable
 from aioros1.events import Broadcast, Event, EventStream
 from aioros1.graph import Graph
-from aioros1.heartbeat import Heartbeat
-from aioros1.identity import Identity
 from aioros1.idl import MessageStore, default_store
-from aioros1.logger_levels import LoggerLevels
-from aioros1.master_proxy import MasterProxy
+from aioros1.life.heartbeat import Heartbeat
+from aioros1.life.identity import Identity
+from aioros1.life.own_address import OwnAddress
+from aioros1.life.supervisor import Supervisor
+from aioros1.log.logger_levels import LoggerLevels
+from aioros1.log.node_log import NodeLog
+from aioros1.log.rosout import Rosout
 from aioros1.net.allow import AllowList
 from aioros1.net.hosts import uri_host
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer
-from aioros1.node_log import NodeLog
 from aioros1.options import (
     LOCAL_TRANSPORTS,
     Limits,
@@ -33,25 +40,18 @@ from aioros1.options import (
     OnError,
     Timeouts,
 )
-from aioros1.own_address import OwnAddress
-from aioros1.param_calls import ParamCalls
-from aioros1.peer import NodeProxy
-from aioros1.rate import Rate, period_of
-from aioros1.role import NodeStats, Role
-from aioros1.roles import Roles
-from aioros1.rosout import Rosout
-from aioros1.service_calls import ServiceCalls
-from aioros1.sim_time import SimTime
-from aioros1.slave_api import SlaveApi
-from aioros1.supervisor import Supervisor
+from aioros1.roles.acceptor import Acceptor
+from aioros1.roles.node_roles import Roles
+from aioros1.roles.param_calls import ParamCalls
+from aioros1.roles.role import NodeStats, Role
+from aioros1.roles.service_calls import ServiceCalls
+from aioros1.roles.topic_calls import TopicCalls
 from aioros1.time import Duration, Time
-from aioros1.timer import Timer
-from aioros1.topic_calls import TopicCalls
 from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
-    from aioros1.statistics import Statistics
+    from aioros1.roles.statistics import Statistics
 
 __all__ = ["Node"]
 
@@ -466,7 +466,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         await self._sim_time.ask()
         # All that may fail, and is then done again, is behind us.
         if has_statistics:
-            from aioros1 import statistics  # here, as hardly anybody wants it
+            from aioros1.roles import statistics  # here, as hardly anybody wants it
 
             self._spawn(statistics.Statistics(self).run, name=f"{self.name} statistics")
 

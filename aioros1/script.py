@@ -10,9 +10,9 @@ from collections.abc import Callable, Coroutine
 from pathlib import Path
 from typing import Any, TypeVar
 
+from aioros1.api.master_proxy import MasterProxy
 from aioros1.errors import ClosedError, MasterError
-from aioros1.identity import master_uri_of
-from aioros1.master_proxy import MasterProxy
+from aioros1.life.identity import master_uri_of
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.node import Node
 from aioros1.waiting import deadline

@@ -177,7 +177,7 @@ async def test_a_sleep_of_a_duration_is_exact(simulation):
 
 
 async def test_a_clock_that_is_silent_is_told_once(make_node, monkeypatch, caplog):
-    monkeypatch.setattr("aioros1.sim_time._SILENCE", 0.02)
+    monkeypatch.setattr("aioros1.clock.sim_time._SILENCE", 0.02)
     clock = await make_node("clock")
     node = await make_node("simulated", use_sim_time=True)
     asleep = asyncio.create_task(node.sleep(1))

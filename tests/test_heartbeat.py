@@ -86,7 +86,7 @@ async def test_no_heartbeat_if_none_is_wanted(make_node):
 
 async def test_publishers_that_a_new_master_does_not_know_stay_connected(monkeypatch):
     """rospy and roscpp never register again; what they publish may come rarely."""
-    monkeypatch.setattr("aioros1.subscription._GRACE", 0.01)
+    monkeypatch.setattr("aioros1.roles.subscription._GRACE", 0.01)
     async with aioros1.Master(host="localhost", port=0, rosout=False) as old:
         port = old.port
         options = {"master_uri": old.uri, "host": "localhost"}

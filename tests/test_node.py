@@ -9,8 +9,8 @@ import sys
 import pytest
 
 import aioros1
+from aioros1.life.private_params import parse_value
 from aioros1.msg.std_msgs import String
-from aioros1.private_params import parse_value
 
 
 def test_the_constructor_does_no_io():

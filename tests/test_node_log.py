@@ -11,7 +11,7 @@ import pytest
 
 import aioros1
 from aioros1 import Duration, Time
-from aioros1.node_log import NodeLog
+from aioros1.log.node_log import NodeLog
 
 SECOND = 1_000_000_000
 

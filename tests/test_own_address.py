@@ -9,8 +9,8 @@ import socket
 import pytest
 
 import aioros1
-from aioros1 import own_address
-from aioros1.own_address import OwnAddress
+from aioros1.life import own_address
+from aioros1.life.own_address import OwnAddress
 
 REMOTE = "http://192.0.2.1:11311"  # reserved for documentation: never this machine
 

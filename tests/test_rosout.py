@@ -229,7 +229,7 @@ async def test_a_short_life_ends_without_a_master_too():
 
 
 async def test_a_known_subscriber_that_is_dead_does_not_hold_up_an_abort(make_node, monkeypatch):
-    monkeypatch.setattr("aioros1.rosout._FIRST_SUBSCRIBERS", 60)
+    monkeypatch.setattr("aioros1.log.rosout._FIRST_SUBSCRIBERS", 60)
     other = await make_node("other")
     await other.master.register_subscriber("/rosout", LOG, "http://localhost:1/")
     node = await make_node("brief", rosout=True, timeouts=aioros1.Timeouts(close=60))

@@ -8,7 +8,7 @@ from typing import Any, Self
 
 from aioros1.errors import ClosedError
 from aioros1.node import Node
-from aioros1.publisher import Publisher
+from aioros1.roles.publisher import Publisher
 from aioros1.time import Duration, Time
 
 __all__ = ["SimulatedClock"]

@@ -16,7 +16,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from typing import Any, Self
 
 import aioros1
-from aioros1.master_proxy import MasterProxy
+from aioros1.api.master_proxy import MasterProxy
 from aioros1.msg.std_msgs import String
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.net.xmlrpc_server import XmlRpcServer

@@ -10,9 +10,9 @@ import tracemalloc
 import pytest
 
 import aioros1
-from aioros1 import subscription
 from aioros1.msg.std_msgs import String
 from aioros1.net.backoff import Backoff
+from aioros1.roles import subscription
 
 from .peers import STRING_MD5, STRING_REPLY, WRONG_MD5, frame, header, refusing, string, until
 

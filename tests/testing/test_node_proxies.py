@@ -9,9 +9,9 @@ import time
 import pytest
 
 import aioros1
-from aioros1 import subscription
 from aioros1.msg.std_msgs import String, UInt8MultiArray
 from aioros1.net.backoff import Backoff
+from aioros1.roles import subscription
 from aioros1.srv.std_srvs import SetBool
 from aioros1.testing import FlakyConnection, FlakyProxy, proxies_before
 

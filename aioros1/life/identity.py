@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 
 from aioros1 import names
 from aioros1.errors import InvalidNameError
-from aioros1.private_params import parse_value
+from aioros1.life.private_params import parse_value
 
 __all__ = ["DEFAULT_MASTER_URI", "Identity", "master_uri_of"]
 

@@ -9,13 +9,13 @@ from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from aioros1.errors import ClosedError, MasterError
-from aioros1.logger_levels import ros_level
+from aioros1.log.logger_levels import ros_level
 from aioros1.time import Time
 from aioros1.waiting import Waiters
 
 if TYPE_CHECKING:
     from aioros1.node import Node
-    from aioros1.publisher import Publisher
+    from aioros1.roles.publisher import Publisher
 
 __all__ = ["Rosout"]
 

@@ -13,13 +13,13 @@ from collections.abc import Awaitable, Coroutine
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from aioros1.errors import DeserializationError, SerializationError, ServiceError
-from aioros1.fields import message_from
+from aioros1.roles.fields import message_from
 from aioros1.wire.service import REQUEST_HEAD, SUCCESS, ServiceFrameError, encode_failure
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
     from aioros1.net.service_link import ServiceLink
-    from aioros1.service_provider import ServiceProvider
+    from aioros1.roles.service_provider import ServiceProvider
     from aioros1.wire.handshake import Server
 
 __all__ = ["Serving"]

@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from weakref import WeakSet
 
 from aioros1.errors import ClosedError
-from aioros1.fields import message_from
 from aioros1.idl import Message
 from aioros1.net.topic_links import JOIN, Frame
 from aioros1.options import Overflow, check_queue
-from aioros1.role import Role
+from aioros1.roles.fields import message_from
+from aioros1.roles.role import Role
 from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
 
 if TYPE_CHECKING:
+    from aioros1.clock.timer import Timer
     from aioros1.connection import ConnectionInfo
     from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.node import Node
-    from aioros1.publication import Publication
+    from aioros1.roles.publication import Publication
     from aioros1.time import Duration, Time
-    from aioros1.timer import Timer
 
 __all__ = ["Publisher", "PublisherOptions"]
 

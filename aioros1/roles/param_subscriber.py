@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Self
 
 from aioros1.events import ParamUpdate
-from aioros1.role import Role
+from aioros1.roles.role import Role
 from aioros1.waiting import Waiters
 
 if TYPE_CHECKING:

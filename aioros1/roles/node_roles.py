@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError, MasterError, Md5MismatchError
-from aioros1.param_subscriber import FollowedParam, ParamSubscriber
-from aioros1.publication import Publication
-from aioros1.publisher import Publisher, PublisherOptions
-from aioros1.registration import Registration, Tell
-from aioros1.role import Role
-from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
-from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
-from aioros1.service_provision import probe, service_class_of, type_of
-from aioros1.subscriber import Subscriber, SubscriberOptions
-from aioros1.subscription import Subscription
+from aioros1.roles.param_subscriber import FollowedParam, ParamSubscriber
+from aioros1.roles.publication import Publication
+from aioros1.roles.publisher import Publisher, PublisherOptions
+from aioros1.roles.registration import Registration, Tell
+from aioros1.roles.role import Role
+from aioros1.roles.service_caller import ServiceCaller, ServiceCallerOptions
+from aioros1.roles.service_provider import Handler, ServiceProvider, ServiceProviderOptions
+from aioros1.roles.service_provision import probe, service_class_of, type_of
+from aioros1.roles.subscriber import Subscriber, SubscriberOptions
+from aioros1.roles.subscription import Subscription
 from aioros1.waiting import deadline
 
 if TYPE_CHECKING:

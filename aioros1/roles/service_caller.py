@@ -18,12 +18,12 @@ from aioros1.errors import (
     ServiceUnavailable,
 )
 from aioros1.events import PeerConnected, PeerDisconnected
-from aioros1.fields import message_from
 from aioros1.net.backoff import Backoff
 from aioros1.net.service_link import ServiceLink
 from aioros1.net.tcpros import Stream, connection_info, take_over
-from aioros1.role import Role
-from aioros1.service_provision import agree, look_up, probe
+from aioros1.roles.fields import message_from
+from aioros1.roles.role import Role
+from aioros1.roles.service_provision import agree, look_up, probe
 from aioros1.waiting import Waiters, deadline
 from aioros1.wire.handshake import ServiceOffer
 from aioros1.wire.service import ANSWER_HEAD, SUCCESS, ServiceFrameError

@@ -18,7 +18,7 @@ from aioros1.events import MasterLost, MasterRestarted
 
 if TYPE_CHECKING:
     from aioros1.node import Node
-    from aioros1.registration import Registration
+    from aioros1.roles.registration import Registration
 
 __all__ = ["Heartbeat"]
 

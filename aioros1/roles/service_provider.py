@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Generic, Self, TypeAlias, TypeVar
 
 from aioros1.errors import ClosedError, ServiceError
 from aioros1.events import PeerConnected, PeerDisconnected
-from aioros1.fields import message_from
 from aioros1.net.service_link import ServiceLink
 from aioros1.net.tcpros import Stream, connection_info, take_over
-from aioros1.role import Role
-from aioros1.serving import Serving
+from aioros1.roles.fields import message_from
+from aioros1.roles.role import Role
+from aioros1.roles.serving import Serving
 from aioros1.waiting import Waiters
 from aioros1.wire.handshake import Server, ServiceOffer
 from aioros1.wire.service import REQUEST_HEAD

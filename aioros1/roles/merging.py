@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import Any, Generic, Self, TypeVar, overload
 
-from aioros1.subscriber import Subscriber
+from aioros1.roles.subscriber import Subscriber
 from aioros1.waiting import wait_for_any
 
 __all__ = ["Merge", "merge"]

@@ -5,7 +5,7 @@ rest of the graph they are one. This is the sending half of the data path:
 
 * A message is encoded once, by the publisher, and written to all connections.
 * One that comes alone is written at once. One that follows on the heels of another
-  (:mod:`aioros1.turn`) is collected with those behind it and written as one block, at
+  (:mod:`aioros1.roles.turn`) is collected with those behind it and written as one block, at
   64 KiB or at the end of the turn of the event loop: one system call per message reaches
   0.4 million messages a second, blocks reach 4 million.
 * The block is joined once for all connections that keep up. One that does not leaves
@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from aioros1.connection import ConnectionInfo
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
-from aioros1.turn import this_loops_turn
+from aioros1.roles.turn import this_loops_turn
 from aioros1.waiting import Waiters
 from aioros1.wire.allocation import keep_memory
 from aioros1.wire.handshake import TopicOffer
@@ -28,7 +28,7 @@ from aioros1.wire.handshake import TopicOffer
 if TYPE_CHECKING:
     from aioros1.idl import Message
     from aioros1.node import Node
-    from aioros1.publisher import Publisher
+    from aioros1.roles.publisher import Publisher
 
 __all__ = ["Publication"]
 

@@ -12,7 +12,7 @@ from weakref import WeakKeyDictionary
 from aioros1.errors import DeserializationError, InvalidNameError, MessageError
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.options import Overflow, check_queue
-from aioros1.role import Role
+from aioros1.roles.role import Role
 from aioros1.time import Time
 from aioros1.waiting import Waiters, deadline
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
     from aioros1.idl import Message, MessageStore
     from aioros1.node import Node
-    from aioros1.subscription import Subscription
+    from aioros1.roles.subscription import Subscription
     from aioros1.wire.handshake import TopicOffer
 
 __all__ = ["MessageEvent", "Subscriber", "SubscriberOptions"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Self
 
-from aioros1.clock import Clock
+from aioros1.clock.clock import Clock
 from aioros1.errors import ClosedError
 from aioros1.time import Time
 

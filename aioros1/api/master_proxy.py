@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from aioros1.api.triple import as_it_is, call_triple
 from aioros1.errors import MasterError, MasterUnreachable
-from aioros1.triple import as_it_is, call_triple
 
 if TYPE_CHECKING:
     from aioros1.net.xmlrpc_client import XmlRpcClient

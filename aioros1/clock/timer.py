@@ -6,8 +6,8 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any
 
-from aioros1.clock import to_nanoseconds
-from aioros1.rate import Rate
+from aioros1.clock.clock import to_nanoseconds
+from aioros1.clock.rate import Rate
 from aioros1.time import Duration, Time
 
 if TYPE_CHECKING:

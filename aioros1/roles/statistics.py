@@ -18,8 +18,8 @@ from aioros1.time import Duration, Time
 if TYPE_CHECKING:
     from aioros1.net.topic_links import IncomingLink, Received
     from aioros1.node import Node
-    from aioros1.publisher import Publisher
-    from aioros1.subscription import Subscription
+    from aioros1.roles.publisher import Publisher
+    from aioros1.roles.subscription import Subscription
 
 __all__ = ["Statistics"]
 

@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from aioros1.idl import Message
-from aioros1.role import Opening
-from aioros1.service_caller import ServiceCaller, ServiceCallerOptions
-from aioros1.service_provider import Handler, ServiceProvider, ServiceProviderOptions
+from aioros1.roles.role import Opening
+from aioros1.roles.service_caller import ServiceCaller, ServiceCallerOptions
+from aioros1.roles.service_provider import Handler, ServiceProvider, ServiceProviderOptions
 from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
     from aioros1.idl import Service
     from aioros1.idl.genpy_types import GenpyMessage, GenpyService
-    from aioros1.roles import Roles
+    from aioros1.roles.node_roles import Roles
 
 __all__ = ["ServiceCalls"]
 

@@ -12,19 +12,19 @@ import asyncio
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from aioros1.api.peer import NodeProxy
 from aioros1.connection import ConnectionInfo
 from aioros1.errors import HandshakeError, PeerError
 from aioros1.events import PeerConnected, PeerDisconnected
 from aioros1.net.backoff import Backoff
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
-from aioros1.peer import NodeProxy
 from aioros1.waiting import Waiters
 from aioros1.wire.handshake import TopicClient, TopicOffer
 
 if TYPE_CHECKING:
     from aioros1.node import Node
-    from aioros1.subscriber import Subscriber
+    from aioros1.roles.subscriber import Subscriber
 
 __all__ = ["Subscription"]
 

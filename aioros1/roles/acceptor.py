@@ -13,8 +13,8 @@ from aioros1.wire.handshake import Server
 
 if TYPE_CHECKING:
     from aioros1.node import Node
-    from aioros1.publication import Publication
-    from aioros1.service_provider import ServiceProvider
+    from aioros1.roles.publication import Publication
+    from aioros1.roles.service_provider import ServiceProvider
 
 __all__ = ["Acceptor"]
 

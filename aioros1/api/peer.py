@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
+from aioros1.api.master_proxy import TopicType, topic_types
+from aioros1.api.triple import as_it_is, call_triple
 from aioros1.errors import PeerError, PeerUnreachable
-from aioros1.master_proxy import TopicType, topic_types
-from aioros1.triple import as_it_is, call_triple
 
 if TYPE_CHECKING:
     from aioros1.net.xmlrpc_client import XmlRpcClient

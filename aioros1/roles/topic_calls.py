@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
 
 from aioros1.idl import Message
 from aioros1.options import Overflow
-from aioros1.publisher import Publisher, PublisherOptions
-from aioros1.role import Opening
-from aioros1.subscriber import Subscriber, SubscriberOptions
+from aioros1.roles.publisher import Publisher, PublisherOptions
+from aioros1.roles.role import Opening
+from aioros1.roles.subscriber import Subscriber, SubscriberOptions
 from aioros1.waiting import deadline
 
 if TYPE_CHECKING:
     from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.idl.message import AnyMessage
-    from aioros1.roles import Roles
+    from aioros1.roles.node_roles import Roles
 
 __all__ = ["TopicCalls"]
 

@@ -9,13 +9,13 @@ from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any
 
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
-from aioros1.param_subscriber import ParamSubscriber
-from aioros1.role import Opening
+from aioros1.roles.param_subscriber import ParamSubscriber
+from aioros1.roles.role import Opening
 from aioros1.wire.xmlrpc import decode_response, encode_response
 
 if TYPE_CHECKING:
-    from aioros1.master_proxy import MasterProxy
-    from aioros1.roles import Roles
+    from aioros1.api.master_proxy import MasterProxy
+    from aioros1.roles.node_roles import Roles
 
 __all__ = ["ParamCalls"]
 

@@ -1,0 +1,1 @@
+"""The time of a node, and what goes by it."""

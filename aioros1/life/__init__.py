@@ -1,0 +1,1 @@
+"""How a node comes to be, stays known to its master, and ends."""

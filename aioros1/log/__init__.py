@@ -1,0 +1,1 @@
+"""What a node logs, on ``/rosout`` and elsewhere."""

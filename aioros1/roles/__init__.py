@@ -1,0 +1,1 @@
+"""What a node does in the graph: its publishers, subscribers, services and parameters."""
