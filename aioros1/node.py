@@ -88,8 +88,8 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     between nodes of this library that are in one event loop, or on one Linux host, if both
     sides name it.
 
-    The constructor does no I/O. Raises :class:`~aioros1.InvalidNameError` and
-    :class:`ValueError`.
+    The constructor does no I/O. Raises :class:`~aioros1.InvalidNameError`,
+    :class:`ValueError` and :class:`TypeError`, which name the option.
     """
 
     def __init__(
@@ -140,6 +140,8 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         )
         self.timeouts = timeouts
         self.limits = limits
+        if not isinstance(store, MessageStore | None):
+            raise TypeError(f"store must be a MessageStore or None, got {store!r}")
         self.store = store if store is not None else default_store()
         self.peer_definitions = MessageStore(parent=self.store)
         """Definitions that publishers sent: a store of their own, so that what a peer

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, fields
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 __all__ = [
     "LOCAL_TRANSPORTS",
@@ -130,6 +130,20 @@ class Limits:
                 raise ValueError(f"limits.{field.name} must be {expected}, got {value!r}")
 
 
+# Of these a wrong value would be noticed late, or never: "no" is true.
+_KINDS: dict[str, tuple[Any, str]] = {
+    "host": (str | None, "a str or None"),
+    "bind": (str | None, "a str or None"),
+    "remap": (Mapping | None, "a mapping of names or None"),
+    "anonymous": (bool, "True or False"),
+    "logger_services": (bool, "True or False"),
+    "use_sim_time": (bool | None, "True, False or None"),
+    "heartbeat": (int | float | None, "a number of seconds or None"),
+    "timeouts": (Timeouts, "aioros1.Timeouts"),
+    "limits": (Limits, "aioros1.Limits"),
+}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeOptions:
     """What a node was made with; see :class:`Node` for the meaning of each."""
@@ -154,6 +168,12 @@ class NodeOptions:
     local_transports: Collection[LocalTransport] = LOCAL_TRANSPORTS
 
     def __post_init__(self) -> None:
+        for name, (kind, expected) in _KINDS.items():
+            if not isinstance(value := getattr(self, name), kind):
+                raise TypeError(f"{name} must be {expected}, got {value!r}")
+        for name, port in (("xmlrpc_port", self.xmlrpc_port), ("tcpros_port", self.tcpros_port)):
+            if not isinstance(port, int) or isinstance(port, bool) or not 0 <= port <= 65535:
+                raise ValueError(f"{name} must be a whole number from 0 to 65535, got {port!r}")
         if self.on_error not in ("raise", "log") and not callable(self.on_error):
             raise ValueError(f"on_error must be 'raise', 'log' or callable, got {self.on_error!r}")
         if self.heartbeat is not None and not self.heartbeat > 0:

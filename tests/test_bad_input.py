@@ -48,6 +48,31 @@ def test_what_is_no_command_line(argv):
         aioros1.Node("demo", argv=argv)
 
 
+@pytest.mark.parametrize(
+    ("option", "value", "expected"),
+    [
+        ("host", 3, "a str or None"),
+        ("bind", ["10.0.0.1"], "a str or None"),
+        ("remap", 3, "a mapping of names or None"),
+        ("timeouts", 3, "aioros1.Timeouts"),
+        ("limits", None, "aioros1.Limits"),
+        ("heartbeat", "1", "a number of seconds or None"),
+        ("use_sim_time", "no", "True, False or None"),
+        ("logger_services", "no", "True or False"),
+        ("anonymous", "no", "True or False"),
+        ("store", "share/msg", "a MessageStore or None"),
+        ("xmlrpc_port", "x", "a whole number from 0 to 65535"),
+        ("xmlrpc_port", 65536, "a whole number from 0 to 65535"),
+        ("tcpros_port", -1, "a whole number from 0 to 65535"),
+        ("tcpros_port", True, "a whole number from 0 to 65535"),
+    ],
+)
+def test_what_is_no_option(option, value, expected):
+    with pytest.raises((TypeError, ValueError)) as caught:
+        aioros1.Node("demo", **{option: value})
+    assert str(caught.value) == f"{option} must be {expected}, got {value!r}"
+
+
 async def test_what_cannot_be_called(make_node):
     node = await make_node()
     with pytest.raises(TypeError, match="a timer calls a function, got 'tick'"):
