@@ -8,7 +8,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from aioros1.errors import MasterUnreachable
+from aioros1.errors import MasterError
 
 if TYPE_CHECKING:
     from aioros1.node import Node
@@ -59,7 +59,7 @@ class SimTime:
         while True:
             try:
                 await self._take_time()
-            except MasterUnreachable:
+            except MasterError:
                 await self._node._pause(_RETRY)
             else:
                 return
