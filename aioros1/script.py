@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 from aioros1.api.master_proxy import MasterProxy
 from aioros1.errors import ClosedError, MasterError
 from aioros1.life.identity import master_uri_of
+from aioros1.log.log_file import log_file
 from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.node import Node
 from aioros1.waiting import deadline
@@ -36,7 +37,8 @@ def run(
     """Run ``main(node)`` in a node and an event loop of its own; what it returns.
 
     ``name`` is the script's by default. The command line of the script is the node's,
-    unless ``argv`` is among the options. ``loop_factory`` is that of
+    unless ``argv`` is among the options; what the node logs is written to the file that
+    its ``__log:=`` names. ``loop_factory`` is that of
     :class:`asyncio.Runner`, as ``uvloop.new_event_loop``.
 
     SIGINT and SIGTERM close the node. Loops over roles and rates end then, and with
@@ -48,8 +50,9 @@ def run(
     if name is None:
         name = Path(sys.argv[0]).stem or "aioros1"
     node_options.setdefault("argv", sys.argv[1:])
-    with asyncio.Runner(loop_factory=loop_factory) as runner:
-        return runner.run(_run(main, Node(name, **node_options)))
+    node = Node(name, **node_options)
+    with log_file(node), asyncio.Runner(loop_factory=loop_factory) as runner:
+        return runner.run(_run(main, node))
 
 
 async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T | None:

@@ -212,6 +212,10 @@ def is_member(kind: type, name: str) -> bool:
     )
 
 
+FOLDERS = [ROOT, ROOT / "aioros1"]
+"""Where the pages find files."""
+
+
 def is_there(names: list[str]) -> bool:
     """Whether ``aioros1`` has something by that dotted name."""
     found: object = aioros1
@@ -228,6 +232,10 @@ def is_there(names: list[str]) -> bool:
 def wishes(page: Path) -> Iterator[str]:
     """What is named in a page and does not exist."""
     for code in re.findall(r"`([^`\n]+)`", page.read_text(encoding="utf-8")):
+        if re.fullmatch(r"[\w/]+\.py", code):
+            if not any((folder / code).exists() for folder in FOLDERS):
+                yield code
+            continue
         for owner, name in _MEMBER.findall(code):
             if owner in KINDS and not is_member(KINDS[owner], name):
                 yield f"{owner}.{name}"

@@ -26,6 +26,16 @@ result = aioros1.run(main, "talker")
 print("ended", result, flush=True)
 """
 
+LOGGING = """
+import logging, aioros1
+async def main(node):
+    node.log.info("hello")
+    logging.getLogger("app.part").warning("all %s", "w\\u00e4ll")
+    logging.getLogger("other").info("nothing to do with it")
+aioros1.run(main, "talker", rosout=["app"])
+logging.getLogger("app").error("too late")
+"""
+
 STUBBORN = """
 import asyncio, aioros1
 async def main(node):
@@ -95,3 +105,29 @@ async def test_what_main_raises_is_raised(master):
     _, errors = await asyncio.wait_for(process.communicate(), 20)
     assert process.returncode == 1
     assert errors.decode().rstrip().endswith("LookupError: mine")
+
+
+@pytest.mark.asyncio(loop_factories=["asyncio"])
+async def test_what_it_logs_is_in_the_file_that_roslaunch_names(master, tmp_path):
+    path = tmp_path / "talker-1.log"
+    path.write_text("from the last time\n")
+    process = await start(LOGGING, master.uri, f"__log:={path}")
+    output, errors = await asyncio.wait_for(process.communicate(), 20)
+    # On the terminal it is as without a file.
+    assert (output, errors.decode(), process.returncode) == (b"", "all wäll\ntoo late\n", 0)
+    first, hello, well = path.read_text(encoding="utf-8").splitlines()
+    assert first == "from the last time"
+    assert hello.startswith("[ros.talker][INFO] ")
+    assert hello.endswith(": hello")
+    assert well.startswith("[app.part][WARNING] ")
+    assert well.endswith(": all wäll")
+
+
+@pytest.mark.asyncio(loop_factories=["asyncio"])
+async def test_a_file_that_cannot_be_written_is_no_reason_to_end(master, tmp_path):
+    path = tmp_path / "no" / "such.log"
+    process = await start(LOGGING, master.uri, f"__log:={path}")
+    _, errors = await asyncio.wait_for(process.communicate(), 20)
+    first, *_ = errors.decode().splitlines()
+    assert first.startswith(f"__log:={path}: no log is written there: ")
+    assert process.returncode == 0

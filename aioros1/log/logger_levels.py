@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from aioros1.errors import MasterError, RosError
+from aioros1.log.loggers import logger_names
 
 if TYPE_CHECKING:
     from aioros1.node import Node
@@ -100,14 +101,10 @@ class LoggerLevels:
                 await self._node._pause(_RETRY)
 
     def _is_ours(self, name: str) -> bool:
-        return any(name == top or name.startswith(f"{top}.") for top in self._tops())
-
-    def _tops(self) -> list[str]:
-        chosen = self._node.options.rosout
-        return [self._node.log.logger.name, *(() if isinstance(chosen, bool) else chosen)]
+        return any(name == top or name.startswith(f"{top}.") for top in logger_names(self._node))
 
     def _get_loggers(self, request: Any) -> dict[str, Any]:
-        tops = [logging.getLogger(name) for name in self._tops()]
+        tops = [logging.getLogger(name) for name in logger_names(self._node)]
         # Logging keeps placeholders for names that stand only within longer ones.
         others = [
             logger
@@ -127,9 +124,9 @@ class LoggerLevels:
             raise RosError(f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}")
         # One that does not exist yet is made, as by rospy and roscpp: its user may come later.
         if not self._is_ours(request.logger):
+            names = ", ".join(logger_names(self._node))
             raise RosError(
-                f"unknown logger {request.logger!r}, expected one of {', '.join(self._tops())}, "
-                "or one below"
+                f"unknown logger {request.logger!r}, expected one of {names}, or one below"
             )
         self.set(logging.getLogger(request.logger), LEVELS[level][0])
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from aioros1.errors import ClosedError, MasterError
 from aioros1.log.logger_levels import ros_level
+from aioros1.log.loggers import Unseen, loggers_of
 from aioros1.time import Time
 from aioros1.waiting import Waiters
 
@@ -29,7 +30,7 @@ _FIRST_SUBSCRIBERS = 1.0
 """Seconds that the first records wait for those who want them."""
 
 
-class Rosout(logging.Handler):
+class Rosout(Unseen):
     """Publishes what the logger of a node is given, and the loggers that it was told.
 
     What is logged in the loop of the node is published at once, what other threads log as
@@ -50,14 +51,9 @@ class Rosout(logging.Handler):
         self._is_awaited = True
         """Whether somebody may be about to hear the first records."""
         self._progress = Waiters()
-        own = node.log.logger
         # As rosout has it; what else the application shows is up to its handlers.
-        node._logger_levels.set_default(own, logging.INFO)
-        chosen = node.options.rosout
-        names = () if isinstance(chosen, bool) else chosen
-        loggers = dict.fromkeys([own, *map(logging.getLogger, names)])
-        # One that hands its records on to another of them is heard there.
-        self._loggers = [each for each in loggers if not _reaches(each, loggers)]
+        node._logger_levels.set_default(node.log.logger, logging.INFO)
+        self._loggers = loggers_of(node)
         for logger in self._loggers:
             logger.addHandler(self)
 
@@ -117,7 +113,7 @@ class Rosout(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         try:
-            self._print_if_nobody_does(record)
+            self.print_if_nobody_does(record)
             if self._is_of_another(record):
                 return
             fields = self._fields(record)
@@ -140,15 +136,6 @@ class Rosout(logging.Handler):
             # The handler of the nearest node comes first.
             record.__dict__.setdefault("ros_node", name)
         return getattr(record, "ros_node", name) != name
-
-    def _print_if_nobody_does(self, record: logging.LogRecord) -> None:
-        """As logging does, which takes us for somebody who shows it."""
-        last_resort = logging.lastResort
-        if last_resort is not None and record.levelno >= last_resort.level:
-            handlers = _handlers(logging.getLogger(record.name))
-            # Once, and not for each node that hears of it.
-            if handlers[:1] == [self] and all(isinstance(each, Rosout) for each in handlers):
-                last_resort.handle(record)
 
     def _fields(self, record: logging.LogRecord) -> dict[str, Any]:
         """What does not change any more, whatever the thread does next."""
@@ -186,24 +173,6 @@ class Rosout(logging.Handler):
             self._waiting.clear()  # the last words of a node that is closed go elsewhere
         finally:
             self._is_publishing = False
-
-
-def _reaches(logger: logging.Logger, others: dict[logging.Logger, None]) -> bool:
-    """Whether the records of ``logger`` are handed on to one of ``others``."""
-    while logger.propagate and logger.parent is not None:
-        logger = logger.parent
-        if logger in others:
-            return True
-    return False
-
-
-def _handlers(logger: logging.Logger) -> list[logging.Handler]:
-    """All that the records of ``logger`` are given to, the nearest first."""
-    handlers = list(logger.handlers)
-    while logger.propagate and logger.parent is not None:
-        logger = logger.parent
-        handlers += logger.handlers
-    return handlers
 
 
 def _running_loop() -> asyncio.AbstractEventLoop | None:

@@ -45,6 +45,7 @@ async def main(node):
     ):
         pub.publish(data=node.name)
         print("said hello", flush=True)
+        node.log.info("hello from %s", node.name)
         tell(
             name=node.name, topic=pub.name, service=provider.name, argv=sys.argv[1:],
             private=await node.get_param("~", None),
@@ -102,6 +103,12 @@ class Launch:
         result = await self.process.wait(timeout=25)
         assert result.code == 0, self.process.report()
         assert "escalating" not in result.text, self.process.report()
+
+
+def log_of(row: dict[str, Any]) -> str:
+    """What is in the file that roslaunch has named."""
+    (path,) = (word for word in row["argv"] if word.startswith("__log:="))
+    return Path(path.removeprefix("__log:=")).read_text()
 
 
 @contextlib.asynccontextmanager
@@ -181,6 +188,10 @@ async def test_names_remappings_and_parameters(tmp_path: Path) -> None:
         await world.run("rosservice", "call", "/robot/turn")
         await launch.stop()
         assert len(await launch.wait_told("ended", 3)) == 3
+        # Where roslaunch tells people to look.
+        logged = log_of(row)
+        assert "[ros.robot.renamed][INFO] " in logged
+        assert logged.count("hello from /robot/renamed\n") == 1
 
 
 async def test_it_is_stopped_and_leaves_nothing_at_the_master(
