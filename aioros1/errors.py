@@ -110,14 +110,16 @@ class Md5MismatchError(MessageError):
 class MasterError(RosError):
     """The master refused a request.
 
-    ``code`` is 0 or -1 from the reply, or the code of an XML-RPC fault;
-    ``status`` is the master's own text.
+    ``code`` is 0 or -1 from the reply, or the code of an XML-RPC fault; ``status`` is what was
+    asked of whom, and the master's own text. ``is_refusal`` is False when it says nothing about
+    what was asked: there was a fault, or no answer of a master.
     """
 
-    def __init__(self, code: int, status: str) -> None:
+    def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
         super().__init__(code, status)
         self.code = code
         self.status = status
+        self.is_refusal = is_refusal
 
     def __str__(self) -> str:
         return f"{self.status} (code {self.code})"
@@ -127,7 +129,7 @@ class MasterUnreachable(MasterError, ConnectionError):
     """Nobody answers as a master at the master's URI."""
 
     def __init__(self, status: str) -> None:
-        super().__init__(-1, status)
+        super().__init__(-1, status, is_refusal=False)
 
     def __str__(self) -> str:
         return self.status
@@ -136,10 +138,11 @@ class MasterUnreachable(MasterError, ConnectionError):
 class PeerError(RosError):
     """Another node refused a request of the slave API; as :class:`MasterError`."""
 
-    def __init__(self, code: int, status: str) -> None:
+    def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
         super().__init__(code, status)
         self.code = code
         self.status = status
+        self.is_refusal = is_refusal
 
     def __str__(self) -> str:
         return f"{self.status} (code {self.code})"
@@ -149,7 +152,7 @@ class PeerUnreachable(PeerError, ConnectionError):
     """Nobody answers at a node's URI."""
 
     def __init__(self, status: str) -> None:
-        super().__init__(-1, status)
+        super().__init__(-1, status, is_refusal=False)
 
     def __str__(self) -> str:
         return self.status

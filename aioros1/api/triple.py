@@ -43,10 +43,12 @@ async def call_triple(
     try:
         answer = await client.call(uri, method, *params, timeout=timeout)
     except XmlRpcFault as fault:
-        raise refused(fault.code, f"{method} at {uri}: {fault.text}") from fault
+        what = f"{method} at {uri}: {fault.text}"
+        raise refused(fault.code, what, is_refusal=False) from fault
     except XmlRpcError as error:
         whose = "master" if refused is MasterError else "node"
-        raise refused(-1, f"{error}; expected the answer of a ROS {whose}") from error
+        what = f"{error}; expected the answer of a ROS {whose}"
+        raise refused(-1, what, is_refusal=False) from error
     except (OSError, TimeoutError) as error:
         raise unreachable(str(error)) from error
     except RuntimeError as error:  # the client is closed, and with it its node
@@ -58,9 +60,10 @@ async def call_triple(
     elif bare:
         value = answer
     else:
-        wrong = ValueError(f"expected [code, status, value], got {answer!r:.200}")
-        raise refused(-1, f"{method} at {uri}: {wrong}") from wrong
+        what = f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}"
+        raise refused(-1, what, is_refusal=False)
     try:
         return read(value)
     except (TypeError, ValueError, LookupError, AttributeError) as error:
-        raise refused(-1, f"{method} at {uri}: cannot read {value!r:.200}: {error}") from error
+        what = f"{method} at {uri}: cannot read {value!r:.200}: {error}"
+        raise refused(-1, what, is_refusal=False) from error

@@ -61,11 +61,9 @@ class ParamCalls(ABC):
         key = self._param_key(key)
         try:
             return await self.master.get_param(key)
-        except MasterUnreachable:
-            raise
         except MasterError as error:
-            if error.__cause__ is not None:
-                raise  # which says nothing about the parameter
+            if not error.is_refusal:
+                raise
             if default is ...:
                 raise KeyError(key) from None
             return default
@@ -98,11 +96,9 @@ class ParamCalls(ABC):
         key = self._param_key(key)
         try:
             await self._change(key, {}, lambda: self.master.delete_param(key))
-        except MasterUnreachable:
-            raise
         except MasterError as error:
-            if error.__cause__ is not None:
-                raise  # which says nothing about the parameter
+            if not error.is_refusal:
+                raise
             raise KeyError(key) from None
 
     async def _change(
@@ -156,11 +152,9 @@ class ParamCalls(ABC):
         """
         try:
             return await self.master.search_param(key)
-        except MasterUnreachable:
-            raise
         except MasterError as error:
-            if error.__cause__ is not None:
-                raise  # which says nothing about the parameter
+            if not error.is_refusal:
+                raise
             return None
 
     async def get_param_names(self) -> list[str]:

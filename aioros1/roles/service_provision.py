@@ -10,7 +10,6 @@ from aioros1.errors import (
     HandshakeError,
     InvalidNameError,
     MasterError,
-    MasterUnreachable,
     Md5MismatchError,
     MessageNotFoundError,
     ServiceNotFound,
@@ -36,11 +35,9 @@ async def look_up(node: Node, service: str) -> str:
     """
     try:
         return await node.master.lookup_service(service)
-    except MasterUnreachable:
-        raise
     except MasterError as error:
-        if error.__cause__ is not None:
-            raise  # which says nothing about the service
+        if not error.is_refusal:
+            raise
         raise ServiceNotFound(f"service {service}: no provider: {error.status}") from error
 
 
