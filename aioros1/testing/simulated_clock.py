@@ -102,7 +102,7 @@ class SimulatedClock:
         """
         self._tracked.append(node)
         # One that was there before the clock learns of it as of any change of a parameter.
-        if node.is_open and node.options.use_sim_time is not False and self._is_of(node):
+        if node._clock.is_simulated or self._will_follow(node):
             await self._wait_for(node)
 
     async def set(self, time: float | Time) -> None:
@@ -160,8 +160,9 @@ class SimulatedClock:
         await self._publisher.send(clock=moment, timeout=_PATIENCE)
         self._now = moment
 
-    def _is_of(self, node: Node) -> bool:
-        return node.master_uri == self._node.master_uri
+    def _will_follow(self, node: Node) -> bool:
+        is_ours = node.master_uri == self._node.master_uri
+        return is_ours and node.is_open and node.options.use_sim_time is not False
 
     def _following(self) -> list[Node]:
         return [node for node in self._tracked if node.is_open and node._clock.is_simulated]

@@ -38,6 +38,14 @@ async def test_a_node_that_was_there_before_the_clock(ros_master, make_node):
     assert node.now() == Time(2)
 
 
+async def test_a_node_that_calls_the_master_by_another_address(ros_master, make_node, ros_clock):
+    """Or by way of a proxy."""
+    for number in range(20):
+        uri = f"http://127.0.0.1:{ros_master.port}"
+        node = await make_node(f"node_{number}", master_uri=uri)
+        assert node.now() == Time(1)
+
+
 async def test_a_sleep_ends_when_its_time_has_come(ros_node, ros_clock):
     log = []
 
