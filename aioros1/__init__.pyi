@@ -1,7 +1,6 @@
 """The public names, for type checkers; ``__init__.py`` imports them when they are used."""
 
 from aioros1._version import __version__ as __version__
-from aioros1.api.peer import NodeProxy as NodeProxy
 from aioros1.connection import ConnectionInfo as ConnectionInfo
 from aioros1.connection import ConnectionStats as ConnectionStats
 from aioros1.errors import ClosedError as ClosedError
@@ -39,15 +38,16 @@ from aioros1.master import Master as Master
 from aioros1.node import Node as Node
 from aioros1.options import Limits as Limits
 from aioros1.options import Timeouts as Timeouts
-from aioros1.roles.merging import merge as merge
-from aioros1.roles.param_subscriber import ParamSubscriber as ParamSubscriber
-from aioros1.roles.publisher import Publisher as Publisher
-from aioros1.roles.service_caller import ServiceCaller as ServiceCaller
-from aioros1.roles.service_provider import ServiceCall as ServiceCall
-from aioros1.roles.service_provider import ServiceProvider as ServiceProvider
-from aioros1.roles.subscriber import MessageEvent as MessageEvent
-from aioros1.roles.subscriber import Subscriber as Subscriber
+from aioros1.params.subscriber import ParamSubscriber as ParamSubscriber
 from aioros1.script import run as run
 from aioros1.script import wait_for_master as wait_for_master
+from aioros1.services.caller import ServiceCaller as ServiceCaller
+from aioros1.services.provider import ServiceCall as ServiceCall
+from aioros1.services.provider import ServiceProvider as ServiceProvider
 from aioros1.time import Duration as Duration
 from aioros1.time import Time as Time
+from aioros1.topics.merge import merge as merge
+from aioros1.topics.publisher import Publisher as Publisher
+from aioros1.topics.subscriber import MessageEvent as MessageEvent
+from aioros1.topics.subscriber import Subscriber as Subscriber
+from aioros1.xmlrpc.node_proxy import NodeProxy as NodeProxy

@@ -10,13 +10,13 @@ from collections.abc import Callable, Coroutine
 from pathlib import Path
 from typing import Any, TypeVar
 
-from aioros1.api.master_proxy import MasterProxy
 from aioros1.errors import ClosedError, MasterError
-from aioros1.life.identity import master_uri_of
 from aioros1.log.log_file import log_file
-from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.node import Node
+from aioros1.node.identity import master_uri_of
 from aioros1.waiting import deadline
+from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.master_proxy import MasterProxy
 
 __all__ = ["run", "wait_for_master"]
 

@@ -24,7 +24,7 @@ from random import Random
 from typing import Any
 
 import aioros1
-from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.xmlrpc.client import XmlRpcClient
 from fuzz.documents import DEAD, MASTER, SLAVE
 from fuzz.http_attack import HttpAttack
 from fuzz.requests import MAX_BODY

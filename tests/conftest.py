@@ -73,7 +73,7 @@ def nothing_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
         for function in blockbuster.functions.values():
             function.can_block_in("aioros1/idl/store.py", {"_source"})
             function.can_block_in("aioros1/idl/paths.py", PATH_FUNCTIONS)
-            function.can_block_in("aioros1/net/local.py", {"_host_key"})
+            function.can_block_in("aioros1/net/local_transports.py", {"_host_key"})
         yield
 
 

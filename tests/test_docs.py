@@ -25,8 +25,8 @@ from types import CodeType
 import pytest
 
 import aioros1
-from aioros1.api.master_proxy import MasterProxy
 from aioros1.graph import Graph
+from aioros1.xmlrpc.master_proxy import MasterProxy
 
 ROOT = Path(aioros1.__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 import aioros1
-from aioros1.api.slave_api import SlaveApi
 from aioros1.master.api import MasterApi
+from aioros1.node.slave_api import SlaveApi
 
 sys.path.append(str(Path(__file__).parents[1]))
 

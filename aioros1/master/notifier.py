@@ -17,8 +17,8 @@ from typing import Any
 
 from aioros1.master.parameters import ParamUpdate
 from aioros1.master.registry import Notification, PublisherUpdate
-from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
+from aioros1.xmlrpc.client import XmlRpcClient
 
 __all__ = ["Notifier"]
 

@@ -28,10 +28,10 @@ from aioros1.net.hosts import (
     resolve,
     uri_host,
 )
-from aioros1.net.xmlrpc_client import XmlRpcClient
-from aioros1.net.xmlrpc_server import Reply, XmlRpcServer
 from aioros1.options import Limits, Timeouts
 from aioros1.wire.xmlrpc import decode_response, encode_response
+from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.server import Reply, XmlRpcServer
 
 __all__ = ["DEFAULT_PORT", "Master", "MasterStats"]
 

@@ -8,7 +8,7 @@ import socket
 from typing import Any
 
 from aioros1.net.allow import AllowList, parse_address
-from aioros1.net.rate import Seldom
+from aioros1.net.rate_limit import Seldom
 
 __all__ = ["THIS_HOST", "Admission"]
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from aioros1.testing.flaky_connection import FlakyConnection
     from aioros1.testing.flaky_proxy import FlakyProxy
     from aioros1.testing.makers import MakeFlakyProxy, MakeNode
-    from aioros1.testing.node_proxies import NodeProxies, proxies_before
+    from aioros1.testing.proxied_node import NodeProxies, proxies_before
     from aioros1.testing.simulated_clock import SimulatedClock
 
 _HOMES = {
@@ -21,9 +21,9 @@ _HOMES = {
     "FlakyProxy": "flaky_proxy",
     "MakeFlakyProxy": "makers",
     "MakeNode": "makers",
-    "NodeProxies": "node_proxies",
+    "NodeProxies": "proxied_node",
     "SimulatedClock": "simulated_clock",
-    "proxies_before": "node_proxies",
+    "proxies_before": "proxied_node",
 }
 
 __all__ = [

@@ -8,8 +8,8 @@ from typing import Any, Self
 
 from aioros1.errors import ClosedError
 from aioros1.node import Node
-from aioros1.roles.publisher import Publisher
 from aioros1.time import Duration, Time
+from aioros1.topics.publisher import Publisher
 
 __all__ = ["SimulatedClock"]
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import aioros1
 from aioros1.testing import proxies_before
-from aioros1.testing.node_proxies import NodeProxies
+from aioros1.testing.proxied_node import NodeProxies
 from soak.bystander import Bystander
 from soak.messages import Numbered, Run
 from soak.scenario import Scenario, Seen

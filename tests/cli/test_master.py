@@ -14,7 +14,7 @@ import pytest
 
 import aioros1.cli
 from aioros1.net.hosts import bind_sockets
-from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.xmlrpc.client import XmlRpcClient
 
 ROOT = Path(aioros1.cli.__file__).parents[2]
 

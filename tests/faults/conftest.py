@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 import aioros1
-from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.xmlrpc.client import XmlRpcClient
 
 from .peers import Bystander, FakeProvider, FakePublisher
 

@@ -16,11 +16,11 @@ from collections.abc import AsyncIterator, Callable, Iterator
 from typing import Any, Self
 
 import aioros1
-from aioros1.api.master_proxy import MasterProxy
 from aioros1.msg.std_msgs import String
-from aioros1.net.xmlrpc_client import XmlRpcClient
-from aioros1.net.xmlrpc_server import XmlRpcServer
 from aioros1.srv.std_srvs import SetBool
+from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.master_proxy import MasterProxy
+from aioros1.xmlrpc.server import XmlRpcServer
 
 PATIENCE = 5.0
 """Seconds until a test that waits gives up; never reached when all is well."""

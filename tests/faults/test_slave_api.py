@@ -8,12 +8,12 @@ import re
 import pytest
 
 import aioros1
-from aioros1.api.peer import NodeProxy
 from aioros1.msg.std_msgs import String
-from aioros1.net.xmlrpc_client import XmlRpcClient
-from aioros1.net.xmlrpc_server import XmlRpcServer
 from aioros1.srv.std_srvs import SetBool
 from aioros1.wire.xmlrpc import XmlRpcFault
+from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.node_proxy import NodeProxy
+from aioros1.xmlrpc.server import XmlRpcServer
 
 from .peers import (
     caller_header,

@@ -12,7 +12,7 @@ import pytest
 import aioros1
 from aioros1.msg.std_msgs import String
 from aioros1.net.backoff import Backoff
-from aioros1.roles import subscription
+from aioros1.topics import subscription
 
 from .peers import STRING_MD5, STRING_REPLY, WRONG_MD5, frame, header, refusing, string, until
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from aioros1.net import local
-from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.net import local_transports as local
+from aioros1.xmlrpc.client import XmlRpcClient
 
 from .ours import take
 from .processes import until

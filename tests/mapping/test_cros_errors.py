@@ -9,9 +9,9 @@ import pytest
 
 import aioros1
 from aioros1.msg.std_msgs import Int32, String
-from aioros1.net.xmlrpc_server import XmlRpcServer
 from aioros1.srv.roscpp_tutorials import TwoInts
 from aioros1.srv.std_srvs import SetBool
+from aioros1.xmlrpc.server import XmlRpcServer
 
 
 @contextlib.asynccontextmanager

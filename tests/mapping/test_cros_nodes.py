@@ -13,8 +13,8 @@ import pytest
 
 import aioros1
 from aioros1.msg.std_msgs import String
-from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.srv.std_srvs import Empty
+from aioros1.xmlrpc.client import XmlRpcClient
 
 # ------------------------------------------------------------------ cRosNodeCreate
 

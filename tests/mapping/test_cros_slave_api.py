@@ -9,8 +9,8 @@ import pytest
 
 import aioros1
 from aioros1.msg.std_msgs import String
-from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.srv.roscpp_tutorials import TwoInts
+from aioros1.xmlrpc.client import XmlRpcClient
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import dataclasses
 import pytest
 
 import aioros1
-from aioros1.roles.service_caller import ServiceCallerOptions
+from aioros1.services.caller import ServiceCallerOptions
 from aioros1.srv.roscpp_tutorials import TwoInts
 
 

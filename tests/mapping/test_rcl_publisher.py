@@ -9,7 +9,7 @@ import pytest
 
 import aioros1
 from aioros1.msg.std_msgs import Header, Int32, String
-from aioros1.roles.publisher import PublisherOptions
+from aioros1.topics.publisher import PublisherOptions
 
 
 @pytest.fixture

@@ -16,9 +16,9 @@ from typing import Any
 import pytest
 
 from aioros1.master import Master
-from aioros1.net.xmlrpc_client import XmlRpcClient
-from aioros1.net.xmlrpc_server import XmlRpcServer
 from aioros1.options import Timeouts
+from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.server import XmlRpcServer
 
 ROSMASTER = shutil.which("rosmaster", path="/usr/bin:/opt/ros/noetic/bin")
 

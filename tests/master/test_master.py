@@ -17,9 +17,9 @@ import aiohttp
 import pytest
 
 from aioros1.master import Master
-from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.node import Node
 from aioros1.wire.xmlrpc import XmlRpcFault, decode_response
+from aioros1.xmlrpc.client import XmlRpcClient
 
 API = "http://127.0.0.1:1/"
 

@@ -10,8 +10,8 @@ from typing import Any
 from aioros1.master import Master
 from aioros1.master.notifier import Notifier
 from aioros1.master.registry import PublisherUpdate
-from aioros1.net.xmlrpc_client import XmlRpcClient
-from aioros1.net.xmlrpc_server import XmlRpcServer
+from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.server import XmlRpcServer
 
 
 async def test_G1_the_old_node_is_told_to_end_and_its_subscribers_are_told(

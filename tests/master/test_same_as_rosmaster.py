@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import pytest
 
 from aioros1.master import Master
-from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.wire.xmlrpc import XmlRpcFault
+from aioros1.xmlrpc.client import XmlRpcClient
 
 pytestmark = pytest.mark.interop
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from aioros1.master import Master
-from aioros1.net.xmlrpc_client import XmlRpcClient
+from aioros1.xmlrpc.client import XmlRpcClient
 
 pytestmark = pytest.mark.interop
 

@@ -13,12 +13,12 @@ import pytest
 
 from aioros1.net import connecting, http_client
 from aioros1.net.http_client import PER_SERVER, server_at
-from aioros1.net.xmlrpc_client import XmlRpcClient
 from aioros1.options import Limits
 from aioros1.wire.xmlrpc import XmlRpcError, decode_call, encode_response
+from aioros1.xmlrpc.client import XmlRpcClient
 
-from .scripted import client, request, scripted
-from .scripted import http as http_answer
+from ..xmlrpc.scripted import client, request, scripted
+from ..xmlrpc.scripted import http as http_answer
 
 VALUE = [1, "", "x" * 100]
 BODY = encode_response(VALUE)

@@ -1,1 +1,0 @@
-"""How a node comes to be, stays known to its master, and ends."""

@@ -1,0 +1,176 @@
+"""Shorter ways than TCP between nodes of this library: within one host, within one loop.
+
+A subscriber asks a publisher with ``requestTopic`` for TCPROS and, behind it, for what it
+knows besides; others pass over what they do not know. What is asked for names the place
+where the subscriber is, so that only a publisher of the same place takes it up:
+
+* ``["INTRAPROCESS", loop]``: a random token of the event loop. Answered with the key of a
+  node in it. Two loops of one process, in two threads, are two places.
+* ``["UNIXROS", host]``: a digest of what names a running kernel and a network namespace of
+  it, which is as far as abstract Unix sockets reach. A host name would not do: containers
+  copy them. Answered with the name of a socket.
+
+On both, the handshake and everything behind it are those of TCPROS.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+import os
+import re
+import socket
+import sys
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from aioros1.net.tcpros import Listener, Stream
+from aioros1.options import LocalTransport
+
+__all__ = ["INTRAPROCESS", "UNIXROS", "LocalTransports"]
+
+INTRAPROCESS = "INTRAPROCESS"
+UNIXROS = "UNIXROS"
+
+_SOCKET_NAME = re.compile(r"aioros1\.[0-9a-f]{32}")
+
+
+class _Place:
+    """An event loop, as seen from the nodes in it."""
+
+    def __init__(self) -> None:
+        self.key = os.urandom(16).hex()
+        self.listeners: dict[str, Listener] = {}
+
+
+_places: WeakKeyDictionary[asyncio.AbstractEventLoop, _Place] = WeakKeyDictionary()
+
+
+def _place() -> _Place:
+    loop = asyncio.get_running_loop()
+    place = _places.get(loop)
+    if place is None:
+        place = _places[loop] = _Place()
+    return place
+
+
+@functools.lru_cache(1)
+def _host_key() -> str | None:
+    """What two processes have in common that can connect with abstract Unix sockets.
+
+    A digest, because the parts are nobody's business; None where there are no such
+    sockets, or no telling.
+    """
+    if not sys.platform.startswith("linux"):
+        return None
+    try:
+        with open("/proc/sys/kernel/random/boot_id", encoding="ascii") as file:
+            boot = file.read().strip()
+        namespace = os.stat("/proc/self/ns/net")
+    except (OSError, ValueError):
+        return None
+    import hashlib  # here, as most programs need neither this nor what it imports
+
+    parts = f"aioros1 {boot} {namespace.st_dev} {namespace.st_ino}"
+    return hashlib.sha256(parts.encode()).hexdigest()[:32]
+
+
+class LocalTransports:
+    """The local transports of one node, for both sides of its topics.
+
+    ``wanted`` says which of them are used. ``listener`` serves the connections that come
+    in, with those over TCP, and under the same limits.
+    """
+
+    def __init__(self, wanted: Collection[LocalTransport], listener: Listener) -> None:
+        self._in_process = "intraprocess" in wanted
+        self._unix = "unix" in wanted
+        self._listener = listener
+        self._place: _Place | None = None
+        self._key = os.urandom(16).hex()
+        self._name: str | None = None
+
+    async def start(self) -> None:
+        """Let others connect. Where a transport cannot be had, others go without."""
+        if self._in_process:
+            self._place = _place()
+            self._place.listeners[self._key] = self._listener
+        if self._unix and _host_key() is not None:
+            name = f"aioros1.{self._key}"
+            try:
+                await self._listener.listen_unix(f"\0{name}")
+            except OSError:
+                return  # forbidden, by a sandbox perhaps
+            self._name = name
+
+    def close(self) -> None:
+        """Take no more connections; those that are open stay so."""
+        self._name = None
+        if self._place is not None:
+            self._place.listeners.pop(self._key, None)
+            self._place = None
+
+    # a subscriber's side
+
+    def offers(self) -> list[list[str]]:
+        """What to ask a publisher for, besides TCPROS."""
+        offers = []
+        if self._in_process:
+            offers.append([INTRAPROCESS, _place().key])
+        if self._unix and (host := _host_key()) is not None:
+            offers.append([UNIXROS, host])
+        return offers
+
+    async def connect(self, answer: Sequence[Any]) -> Stream:
+        """Connect to the publisher that gave this answer to what was asked for.
+
+        Raises :class:`ConnectionError`.
+        """
+        match answer:
+            case ["INTRAPROCESS", str(key)] if self._in_process:
+                return _connect_in_process(key)
+            case ["UNIXROS", str(name)] if self._unix and _SOCKET_NAME.fullmatch(name):
+                # Only sockets of this library: a publisher must not be able to send us
+                # to any other service of the host.
+                return await _connect_unix(name)
+        raise ConnectionError(f"cannot use {answer!r:.200}")
+
+    # a publisher's side
+
+    def answer(self, protocols: Sequence[Sequence[Any]]) -> list[str] | None:
+        """What to answer to a subscriber that asks for these; None for TCPROS."""
+        wanted: Mapping[str, Any] = {each[0]: each[1] for each in protocols if len(each) == 2}
+        place = self._place
+        if place is not None and wanted.get(INTRAPROCESS) == place.key:
+            return [INTRAPROCESS, self._key]
+        if self._name is not None and wanted.get(UNIXROS) == _host_key():
+            return [UNIXROS, self._name]
+        return None
+
+
+def _connect_in_process(key: str) -> Stream:
+    listener = _place().listeners.get(key)
+    if listener is None:
+        raise ConnectionRefusedError("no such node in this event loop")
+    from aioros1.net.in_process import connect_in_memory
+
+    loop = asyncio.get_running_loop()
+    reader = asyncio.StreamReader(loop=loop)
+    protocol = asyncio.StreamReaderProtocol(reader, loop=loop)
+    transport, _ = connect_in_memory(protocol, listener.new_protocol())
+    return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop))
+
+
+async def _connect_unix(name: str) -> Stream:
+    sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        sock.setblocking(False)
+        # It never waits, and fails when too many others are waiting to be accepted;
+        # asyncio would take that for a connection under way, as it is for TCP.
+        sock.connect(f"\0{name}")
+        reader, writer = await asyncio.open_unix_connection(sock=sock)
+    except BaseException:
+        sock.close()
+        raise
+    return Stream(reader, writer)

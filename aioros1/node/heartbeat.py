@@ -1,0 +1,137 @@
+"""Noticing that the master is gone, back, or another one, and that we have moved.
+
+Masters forget everything when they end, and tell nobody. A node that registered once
+would be a ghost from then on, so it asks again and again who the master is, and
+registers anew when that has changed. It would be one as well when its machine has got
+another address, and so it registers that one.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Awaitable, Iterable
+from typing import TYPE_CHECKING
+
+from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.events import MasterLost, MasterRestarted
+
+if TYPE_CHECKING:
+    from aioros1.core.registration import Registration
+    from aioros1.node import Node
+
+__all__ = ["Heartbeat"]
+
+
+class Heartbeat:
+    """Follows the identity of one node's master."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._identity: tuple[int, str] | None = None
+        self._is_lost = False
+        self._is_stale = False
+        self._is_stopped = False
+        self.refusal: MasterError | None = None
+        """Why :meth:`greet` has failed, if it has."""
+
+    def stop(self) -> None:
+        """Register nothing again from now on."""
+        self._is_stopped = True
+
+    @property
+    def run_id(self) -> str | None:
+        """What the master calls this run of the graph; None before it was asked."""
+        return None if self._identity is None else self._identity[1]
+
+    async def greet(self) -> bool:
+        """Ask once, without consequences; whether the master is there."""
+        try:
+            self._identity = await self._ask()
+        except MasterError as error:
+            self.refusal = error
+            return False
+        return True
+
+    async def run(self, period: float) -> None:
+        """Ask every ``period`` seconds."""
+        while not self._is_stopped:
+            await asyncio.sleep(period)
+            await self._beat()
+
+    async def _beat(self) -> None:
+        node = self._node
+        try:
+            identity = await self._ask()
+        except (MasterError, ClosedError) as error:
+            if not self._is_lost and not self._is_stopped:
+                self._is_lost = True
+                node.log.warning("lost the master at %s: %s", node.master_uri, error)
+                node._emit(MasterLost(node.master_uri, str(error)))
+            return
+        known, self._identity = self._identity, identity
+        was_lost, self._is_lost = self._is_lost, False
+        if self._is_stopped:
+            return
+        with contextlib.suppress(MasterError):  # the next time
+            await node._sim_time.ask()
+        await self._move()
+        if identity == known and not was_lost and not self._is_stale:
+            await self._settle()
+            return
+        # Also after an outage of the same master: what was registered meanwhile may
+        # not have reached it.
+        self._is_stale = not await self._register_again()
+        if known is None or self._is_stale:
+            return
+        node.log.warning("registered again at the master at %s", node.master_uri)
+        node._emit(MasterRestarted(node.master_uri, identity[1]))
+
+    async def _ask(self) -> tuple[int, str]:
+        master = self._node.master
+        pid = await master.get_pid()
+        try:
+            run_id = str(await master.get_param("/run_id"))
+        except MasterUnreachable:
+            raise
+        except MasterError:
+            run_id = ""  # not set, or deleted
+        return pid, run_id
+
+    async def _move(self) -> None:
+        """Tell another address, if the one told is not this machine's any more."""
+        node = self._node
+        old, new = node._address.host, await node._address.successor()
+        if old is None or new is None:
+            return
+        node.log.warning("the address %s is lost; others are told %s now", old, new)
+        # Not only renewed: the master would take the same name at another address for
+        # another node, and tell whoever has the old address now to end.
+        self._is_stale = True
+        await self._all(registration.withdraw() for registration in self._registrations)
+        node._address.host = new
+        node._roles.lose_address(old)
+        node._xmlrpc.close_idle()
+
+    async def _register_again(self) -> bool:
+        """Register everything anew, all at once; whether the master took all of it."""
+        return await self._all(registration.renew() for registration in self._registrations)
+
+    async def _settle(self) -> None:
+        """Tell the master what it could not be told, or may not have heard."""
+        behind = [registration for registration in self._registrations if registration.is_behind]
+        if behind:
+            await self._all(registration.settle() for registration in behind)
+
+    @property
+    def _registrations(self) -> tuple[Registration, ...]:
+        return tuple(self._node._roles.registrations.values())
+
+    async def _all(self, telling: Iterable[Awaitable[None]]) -> bool:
+        results = await asyncio.gather(*telling, return_exceptions=True)
+        failures = [result for result in results if isinstance(result, BaseException)]
+        for failure in failures:
+            if not isinstance(failure, MasterError):
+                raise failure
+            self._node.log.warning("cannot register: %s", failure)
+        return not failures

@@ -1,0 +1,187 @@
+"""Log records on ``/rosout``."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+from collections import deque
+from typing import TYPE_CHECKING, Any
+
+from aioros1.errors import ClosedError, MasterError
+from aioros1.log.loggers import Unseen, loggers_of
+from aioros1.node.logger_services import ros_level
+from aioros1.time import Time
+from aioros1.waiting import Waiters
+
+if TYPE_CHECKING:
+    from aioros1.node import Node
+    from aioros1.topics.publisher import Publisher
+
+__all__ = ["Rosout"]
+
+_RETRY = 1.0
+
+_WAITING = 10_000
+"""Records that wait to be published, at the most: of threads that log while the event loop
+is busy, and of a node without a master."""
+
+_FIRST_SUBSCRIBERS = 1.0
+"""Seconds that the first records wait for those who want them."""
+
+
+class Rosout(Unseen):
+    """Publishes what the logger of a node is given, and the loggers that it was told.
+
+    What is logged in the loop of the node is published at once, what other threads log as
+    soon as the loop comes to it. The first records wait until the topic is advertised and
+    has its subscribers; a node does not wait for that with its start.
+    """
+
+    def __init__(self, node: Node) -> None:
+        super().__init__()
+        self._node = node
+        self._loop = asyncio.get_running_loop()
+        self._publisher: Publisher[Any] | None = None
+        self._waiting: deque[dict[str, Any]] = deque(maxlen=_WAITING)
+        self._is_ready = False
+        self._is_publishing = False
+        self._is_scheduled = False
+        self._has_topics = True
+        self._is_awaited = True
+        """Whether somebody may be about to hear the first records."""
+        self._progress = Waiters()
+        # As rosout has it; what else the application shows is up to its handlers.
+        node._logger_levels.set_default(node.log.logger, logging.INFO)
+        self._loggers = loggers_of(node)
+        for logger in self._loggers:
+            logger.addHandler(self)
+
+    def detach(self) -> None:
+        """Leave the loggers as they were."""
+        for logger in self._loggers:
+            logger.removeHandler(self)
+        self._is_ready = False
+        self._waiting.clear()
+        self._expect(False)
+        super().close()
+
+    async def run(self) -> None:
+        """Advertise ``/rosout`` as soon as the master lets us, and publish what waits."""
+        node = self._node
+        while self._publisher is None:
+            try:
+                self._publisher = await node.advertise(
+                    "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
+                )
+            except MasterError:
+                self._expect(False)
+                await node._pause(_RETRY)
+        # As rospy and roscpp have it: for nodes with many topics.
+        with contextlib.suppress(MasterError):
+            disabled = await node.get_param("/rosout_disable_topics_generation", False)
+            self._has_topics = disabled is not True
+        known = self._publisher._publication.known_subscribers
+        self._expect(known > 0)
+        with contextlib.suppress(TimeoutError):
+            await self._publisher.wait_for_subscribers(max(1, known), timeout=_FIRST_SUBSCRIBERS)
+        self._is_ready = True
+        self._publish_waiting()
+        self._expect(False)
+
+    def _expect(self, is_awaited: bool) -> None:
+        self._is_awaited = is_awaited
+        self._progress.wake()
+
+    async def settle(self, timeout: float) -> None:
+        """Before the node closes: let those hear the first records who are about to."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(min(timeout, _FIRST_SUBSCRIBERS)):
+                while self._waiting and self._is_awaited:
+                    await self._progress.wait()
+
+    def uses(self, role: object) -> bool:
+        """Whether it is the publisher of ``/rosout``."""
+        return role is self._publisher
+
+    async def finish(self) -> None:
+        """Publish what waits, and close the topic."""
+        if self._publisher is not None:
+            self._is_ready = True
+            self._publish_waiting()
+            await self._publisher.close()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        try:
+            self.print_if_nobody_does(record)
+            if self._is_of_another(record):
+                return
+            fields = self._fields(record)
+            is_here = _running_loop() is self._loop
+            if is_here and self._is_publishing:
+                return  # it is about the publishing of another record, and would never end
+            self._waiting.append(fields)
+            if self._is_ready:
+                if is_here:
+                    self._publish_waiting()
+                else:
+                    self._schedule()
+        except Exception:  # a record that cannot be formatted, as every handler does
+            self.handleError(record)
+
+    def _is_of_another(self, record: logging.LogRecord) -> bool:
+        """Whether it is of a node whose name, and so its logger, is below ours."""
+        own, name = self._node.log.logger.name, self._node.name
+        if f"{record.name}.".startswith(f"{own}."):
+            # The handler of the nearest node comes first.
+            record.__dict__.setdefault("ros_node", name)
+        return getattr(record, "ros_node", name) != name
+
+    def _fields(self, record: logging.LogRecord) -> dict[str, Any]:
+        """What does not change any more, whatever the thread does next."""
+        return {
+            "header": {"stamp": Time.from_nsec(self._node._clock.nanoseconds())},
+            "level": ros_level(record.levelno),
+            "name": self._node.name,
+            "msg": _sendable(self.format(record)),
+            # Records that were made by hand may have anything there.
+            "file": _sendable(str(record.pathname)),
+            "function": _sendable(str(record.funcName or "")),
+            "line": record.lineno if record.lineno in range(1 << 32) else 0,
+        }
+
+    def _schedule(self) -> None:
+        if not self._is_scheduled:
+            self._is_scheduled = True
+            # The loop may be closed, and the node never was.
+            with contextlib.suppress(RuntimeError):
+                self._loop.call_soon_threadsafe(self._publish_waiting)
+
+    def _publish_waiting(self) -> None:
+        """In the loop only."""
+        self._is_scheduled = False
+        publisher = self._publisher
+        if publisher is None or self._is_publishing or not self._is_ready:
+            return
+        self._is_publishing = True
+        try:
+            topics = sorted(self._node._roles.publications) if self._has_topics else []
+            # Not those that threads add meanwhile, or a busy one would hold up the loop.
+            for _ in range(len(self._waiting)):
+                publisher.publish(topics=topics, **self._waiting.popleft())
+        except ClosedError:
+            self._waiting.clear()  # the last words of a node that is closed go elsewhere
+        finally:
+            self._is_publishing = False
+
+
+def _running_loop() -> asyncio.AbstractEventLoop | None:
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None
+
+
+def _sendable(text: str) -> str:
+    """The text, with escapes for what is no character."""
+    return text if text.isascii() else text.encode("utf-8", "backslashreplace").decode()

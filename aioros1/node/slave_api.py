@@ -1,0 +1,180 @@
+"""What a node answers to its master and to other nodes (https://wiki.ros.org/ROS/Slave_API).
+
+Every answer is ``[code, status, value]``. Code -1 says that the request was wrong, 0
+that it could not be done; rosnode, roswtf and the master read the values.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from aioros1.names import canonicalize
+from aioros1.wire.xmlrpc import carriable
+from aioros1.xmlrpc.server import Reply
+
+if TYPE_CHECKING:
+    from aioros1.connection import ConnectionInfo
+    from aioros1.node import Node
+
+__all__ = ["SlaveApi"]
+
+Triple = list[Any]
+
+
+class SlaveApi:
+    """The ten methods, and the two that rospy has besides."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+
+    @property
+    def methods(self) -> Mapping[str, Callable[..., Any]]:
+        return {
+            "getBusInfo": self.get_bus_info,
+            "getBusStats": self.get_bus_stats,
+            "getMasterUri": self.get_master_uri,
+            "getName": self.get_name,
+            "getPid": self.get_pid,
+            "getPublications": self.get_publications,
+            "getSubscriptions": self.get_subscriptions,
+            "getUri": self.get_uri,
+            "paramUpdate": self.param_update,
+            "publisherUpdate": self.publisher_update,
+            "requestTopic": self.request_topic,
+            "shutdown": self.shutdown,
+        }
+
+    def get_bus_stats(self, caller_id: Any) -> Triple:
+        """[publish, subscribe, service] counters, in the form that rospy gives."""
+        node = self._node
+        publish = [
+            [
+                publication.name,
+                _int32(publication.bytes_published),
+                [
+                    [info.id, _int32(info.stats.bytes), _int32(info.stats.messages), True]
+                    for info in publication.connections
+                ],
+            ]
+            for publication in node._roles.publications.values()
+        ]
+        subscribe = [
+            [
+                subscription.name,
+                [
+                    # We never lose what reached us, and cannot know what did not: -1.
+                    [info.id, _int32(info.stats.bytes), _int32(info.stats.messages), -1, True]
+                    for info in subscription.connections
+                ],
+            ]
+            for subscription in node._roles.subscriptions.values()
+        ]
+        providers = node._roles.providers.values()
+        service = [
+            _int32(sum(provider.stats.messages for provider in providers)),
+            _int32(sum(provider.bytes_received for provider in providers)),
+            _int32(sum(provider.bytes_sent for provider in providers)),
+        ]
+        return [1, "bus stats", [publish, subscribe, service]]
+
+    def get_bus_info(self, caller_id: Any) -> Triple:
+        return [1, "bus info", [_bus_info(info) for info in self._node.connections]]
+
+    def get_master_uri(self, caller_id: Any) -> Triple:
+        return [1, "master URI", self._node.master_uri]
+
+    def get_name(self, caller_id: Any) -> Triple:
+        return [1, "node name", self._node.name]
+
+    def get_uri(self, caller_id: Any) -> Triple:
+        return [1, "node URI", self._node.uri]
+
+    def get_pid(self, caller_id: Any) -> Triple:
+        return [1, "process id", os.getpid()]
+
+    def get_subscriptions(self, caller_id: Any) -> Triple:
+        rows = [[each.name, each.type] for each in self._node._roles.subscriptions.values()]
+        return [1, "subscriptions", rows]
+
+    def get_publications(self, caller_id: Any) -> Triple:
+        publications = self._node._roles.publications.values()
+        rows = [[each.name, each.message_class._type] for each in publications]
+        return [1, "publications", rows]
+
+    def shutdown(self, caller_id: Any, reason: Any = "") -> Triple | Reply:
+        """Answer, then close the node. Anybody may ask, as rosnode kill does."""
+        if not isinstance(reason, str):
+            return _wrong("msg", reason, "a string")
+        who = caller_id if isinstance(caller_id, str) else "unknown caller"
+        node = self._node
+        return Reply([1, "shutdown", 0], after=lambda: node._shut_down(f"[{who}] {reason}"))
+
+    def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
+        if not isinstance(key, str) or not key.startswith("/"):
+            return _wrong("parameter_key", key, "a string that starts with '/'")
+        # The master sends the key with a slash at its end, tools without.
+        if not self._node._roles.param_updated(canonicalize(key), value):
+            return [-1, f"not subscribed to parameter {key}", 0]
+        return [1, "", 0]
+
+    def publisher_update(self, caller_id: Any, topic: Any, publishers: Any) -> Triple:
+        if not isinstance(topic, str) or not topic:
+            return _wrong("topic", topic, "the name of a topic")
+        if not isinstance(publishers, list) or not all(map(_is_http_uri, publishers)):
+            return _wrong("publishers", publishers, "a list of http:// URIs")
+        subscription = self._node._roles.subscriptions.get(canonicalize(topic))
+        if subscription is not None:
+            subscription.update(publishers)
+        return [1, "", 0]
+
+    def request_topic(self, caller_id: Any, topic: Any, protocols: Any) -> Triple:
+        if not isinstance(topic, str) or not topic:
+            return _wrong("topic", topic, "the name of a topic")
+        if not isinstance(protocols, list) or not protocols:
+            return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
+        publication = self._node._roles.publications.get(canonicalize(topic))
+        if publication is None or not publication.publishers:
+            return [-1, f"{self._node.name} does not publish {topic}", []]
+        # Others are passed over, whatever they look like: who asks for them may well
+        # understand this one too.
+        readable = [each for each in protocols if _is_protocol(each)]
+        local = self._node._acceptor.local.answer(readable)
+        if local is not None:
+            return [1, "ready", local]
+        if any(protocol[0] == "TCPROS" for protocol in readable):
+            host, port = self._node.tcpros_address
+            return [1, "ready", ["TCPROS", host, port]]
+        if len(readable) < len(protocols):
+            return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
+        return [0, "no protocol in common: this node speaks TCPROS", []]
+
+
+def _bus_info(info: ConnectionInfo) -> list[Any]:
+    return [
+        info.id,
+        carriable(info.peer),  # it chose its name itself, in whatever octets
+        info.direction,
+        info.transport,
+        info.name,
+        True,
+        info.description,
+    ]
+
+
+def _wrong(parameter: str, value: object, expected: str) -> Triple:
+    return [-1, f"{parameter} must be {expected}, got {value!r:.100}", 0]
+
+
+def _is_protocol(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and isinstance(value[0], str)
+
+
+def _is_http_uri(value: object) -> bool:
+    return isinstance(value, str) and value.startswith("http://") and len(value) > len("http://")
+
+
+def _int32(count: int) -> int:
+    """XML-RPC integers have 32 bits; what does not fit wraps, as C counters do."""
+    return (count + 0x80000000) % 0x100000000 - 0x80000000

@@ -1,0 +1,1 @@
+"""Parameters: asked for, changed and followed."""

@@ -1,1 +1,0 @@
-"""What a node does in the graph: its publishers, subscribers, services and parameters."""

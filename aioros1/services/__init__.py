@@ -1,0 +1,1 @@
+"""Services: providers and callers."""

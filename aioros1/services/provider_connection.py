@@ -1,0 +1,166 @@
+"""One connection of a service provider: requests come in, answers go out.
+
+A request of a persistent connection is worked on where it arrives, if somebody waits for it
+and no answer is stuck: a handler that is a plain function has answered by then, and no task
+was involved. That takes a quarter off the time of a call. Whatever takes longer goes on in
+the task of the connection, one call after the other.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Awaitable, Coroutine
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from aioros1.errors import DeserializationError, SerializationError, ServiceError
+from aioros1.idl.message_from import message_from
+from aioros1.wire.service import REQUEST_HEAD, SUCCESS, ServiceFrameError, encode_failure
+
+if TYPE_CHECKING:
+    from aioros1.connection import ConnectionInfo
+    from aioros1.net.service_link import ServiceLink
+    from aioros1.services.provider import ServiceProvider
+    from aioros1.wire.handshake import Server
+
+__all__ = ["Serving"]
+
+Work: TypeAlias = Coroutine[Any, Any, bytes]
+"""What gives the answer to a call that was begun."""
+
+
+class Serving:
+    """Answers the calls of one caller, over a connection whose hands are shaken."""
+
+    def __init__(
+        self,
+        provider: ServiceProvider[Any, Any],
+        link: ServiceLink,
+        server: Server,
+        info: ConnectionInfo,
+    ) -> None:
+        service_class = provider.service_class
+        self._provider = provider
+        self._link = link
+        self._server = server
+        self._info = info
+        self._is_lost = False  # what comes next may be anything
+        self._decode = service_class._request_class._decode
+        self._response_class = service_class._response_class
+
+    async def run(self) -> None:
+        """Answer calls until the connection ends.
+
+        Raises :class:`OSError` and :class:`TimeoutError` when it fails.
+        """
+        persistent = self._server.persistent
+        if persistent:
+            self._link.at_once = self._at_once
+        while self._provider.is_open and await self._serve_call() and persistent:
+            pass
+
+    async def _serve_call(self) -> bool:
+        """Answer one call. False when there is none any more."""
+        work = await self._next()
+        if work is None:
+            return False
+        if isinstance(work, bytes):
+            work = self._begin(work)
+        self._answer(work if isinstance(work, bytes) else await work)
+        if self._link.is_full:
+            await self._link.drain()
+        return not self._is_lost
+
+    async def _next(self) -> bytes | Work | None:
+        """The next request, or the rest of one that was begun; None when no further one
+        can be read."""
+        patience = self._provider.node.timeouts.handshake
+        try:
+            # A persistent connection may be idle for days. A caller that connected for one
+            # call and does not make it is as stuck as one that stops within it.
+            work: bytes | Work | None = await self._link.receive(
+                patience=None if self._server.persistent else patience
+            )
+            return work
+        except ServiceFrameError as error:
+            why = str(error)
+        except TimeoutError:
+            why = f"no whole request came in {patience} s"
+        self._link.write(encode_failure(f"bad request: {why}"))
+        await self._link.drain()
+        return None
+
+    def _at_once(self, frame: bytes) -> Work | None:
+        """Answer a request where it arrives; or give what it takes to answer it."""
+        work = self._begin(frame)
+        if isinstance(work, bytes):
+            self._answer(work)
+            return None
+        return work
+
+    def _begin(self, frame: bytes) -> bytes | Work:
+        """Begin to work on a request; gives the answer, or what it takes to get it."""
+        provider, stats, size = self._provider, self._info.stats, len(frame)
+        stats.messages += 1
+        stats.bytes += size
+        provider.bytes_received += size
+        provider.stats.messages += 1
+        provider.stats.bytes += size
+        try:
+            request = self._decode(frame, REQUEST_HEAD, size)
+        except DeserializationError as error:
+            # The length said where it ends, but a caller that sends such requests and one
+            # that lost its place look the same.
+            self._is_lost = True
+            self._link.stop_reading()
+            return encode_failure(f"bad request: {error}")
+        if provider.handler is None:
+            return self._defer(request)
+        if provider.slots is not None:
+            return self._finish(self._in_turn(request))
+        try:
+            result = provider.handler(request)
+            if result.__class__ is not self._response_class:
+                if inspect.isawaitable(result):
+                    return self._finish(result)
+                result = message_from(self._response_class, result, {})
+            return SUCCESS + self._response_class._frame(result)
+        except Exception as error:  # whatever the handler raises is for the caller
+            return self._failure(error)
+
+    async def _finish(self, result: Awaitable[Any]) -> bytes:
+        try:
+            message = message_from(self._response_class, await result, {})
+            return SUCCESS + self._response_class._frame(message)
+        except Exception as error:  # whatever the handler raises is for the caller
+            return self._failure(error)
+
+    async def _defer(self, request: Any) -> bytes:
+        try:
+            return SUCCESS + await self._provider.defer(request, self._server.header)
+        except ServiceError as error:
+            return self._failure(error)
+
+    async def _in_turn(self, request: Any) -> Any:
+        provider = self._provider
+        assert provider.handler is not None
+        assert provider.slots is not None
+        async with provider.slots:
+            result = provider.handler(request)
+            return await result if inspect.isawaitable(result) else result
+
+    def _failure(self, error: Exception) -> bytes:
+        if isinstance(error, ServiceError):
+            return encode_failure(error.text)
+        log, name = self._provider.node.log, self._provider.name
+        if isinstance(error, SerializationError):
+            log.error("service %s: bad response", name, exc_info=error)
+            return encode_failure(f"the service made a bad response: {error}")
+        log.error("service %s: the handler failed", name, exc_info=error)
+        return encode_failure(str(error) or type(error).__name__)
+
+    def _answer(self, answer: bytes) -> None:
+        provider = self._provider
+        provider.bytes_sent += len(answer)
+        if answer[0] == 0:
+            provider.stats.errors += 1
+        self._link.write(answer)

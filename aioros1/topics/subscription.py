@@ -1,0 +1,340 @@
+"""A topic that a node receives: a connection to each of its publishers.
+
+The subscribers of one topic in one node share a :class:`Subscription`, and with it
+one connection per publisher. Each publisher is followed by a task of its own, so one
+that hangs delays nobody else: it asks the publisher how to connect, connects, and
+tries again, with growing delays, for as long as the master lists that publisher.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from aioros1.connection import ConnectionInfo
+from aioros1.errors import HandshakeError, PeerError
+from aioros1.events import PeerConnected, PeerDisconnected
+from aioros1.net.backoff import Backoff
+from aioros1.net.tcpros import Stream, connect, connection_info, take_over
+from aioros1.net.topic_links import IncomingLink, Received
+from aioros1.waiting import Waiters
+from aioros1.wire.handshake import TopicClient, TopicOffer
+from aioros1.xmlrpc.node_proxy import NodeProxy
+
+if TYPE_CHECKING:
+    from aioros1.node import Node
+    from aioros1.topics.subscriber import Subscriber
+
+__all__ = ["Subscription"]
+
+_GRACE = 1.0
+"""Seconds without a byte, after which a connection to a publisher that has left the
+master's list is closed. A publisher that ends closes its connections itself, and what
+it sent before is still on its way when the master announces that it is gone."""
+
+
+class Subscription:
+    """One subscribed topic of one node."""
+
+    def __init__(self, node: Node, topic: str) -> None:
+        self.name = topic
+        self.subscribers: tuple[Subscriber[Any], ...] = ()
+        self.changed = Waiters()
+        """Woken when a connection comes or goes."""
+        self._node = node
+        self._followers: dict[str, _Follower] = {}
+        self._links: tuple[IncomingLink, ...] = ()
+        self._updates = 0
+        self.registration = node._roles.registration(
+            "subscriber", topic, self._register, self._unregister
+        )
+
+    @property
+    def type(self) -> str:
+        """What the subscribers agree on: ``*`` if none of them names a type."""
+        return next((sub.type for sub in self.subscribers if sub.type != "*"), "*")
+
+    @property
+    def links(self) -> tuple[IncomingLink, ...]:
+        return self._links
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        return tuple(link.info for link in self._links)
+
+    @property
+    def publisher_count(self) -> int:
+        return len(self._links)
+
+    def wanted(self) -> TopicOffer:
+        """What a publisher is told when we connect."""
+        for sub in self.subscribers:
+            if sub.type != "*":
+                return TopicOffer(self.name, sub.type, sub.md5sum, sub.definition)
+        return TopicOffer(self.name, "*", "*", "")
+
+    @property
+    def has_header(self) -> bool:
+        """Whether its messages begin with a header, as far as the subscribers know them."""
+        classes = [sub.message_class for sub in self.subscribers]
+        return any(cls is not None and cls._has_header for cls in classes)
+
+    @property
+    def is_used(self) -> bool:
+        return bool(self.subscribers)
+
+    # the subscribers
+
+    def add(self, subscriber: Subscriber[Any]) -> None:
+        """One more; it gets what publishers that are connected already have latched."""
+        self.subscribers += (subscriber,)
+        for link in self._links:
+            if link.latched is not None:
+                subscriber._offer([link.latched])
+
+    def remove(self, subscriber: Subscriber[Any]) -> None:
+        """One less; with the last one go the connections."""
+        self.subscribers = tuple(each for each in self.subscribers if each is not subscriber)
+        self.changed.wake()
+        if not self.subscribers:
+            self.close()
+
+    # the publishers
+
+    def update(self, uris: Iterable[str]) -> None:
+        """Follow exactly these publishers, as the master has announced."""
+        self._updates += 1
+        if not self.subscribers:
+            return
+        # A dict and not a set: the order of the master is kept, doubles are dropped.
+        wanted = dict.fromkeys(uris)
+        for uri in [uri for uri in self._followers if uri not in wanted]:
+            self._followers[uri].leave()
+        for uri in wanted:
+            follower = self._followers.get(uri)
+            if follower is not None:
+                follower.stay()
+                continue
+            follower = self._followers[uri] = _Follower(self, self._node, uri)
+            follower.task = self._node._spawn(
+                follower.run, name=f"{self._node.name} follows {self.name} of {uri}"
+            )
+
+    def follower_ended(self, uri: str) -> None:
+        """Nothing comes from there any more."""
+        self._followers.pop(uri, None)
+
+    def close(self) -> None:
+        """Drop all publishers at once."""
+        for follower in tuple(self._followers.values()):
+            follower.cancel()
+        self.changed.wake()
+
+    def link_opened(self, link: IncomingLink) -> None:
+        self._links += (link,)
+        self._node._emit(PeerConnected("subscriber", self.name, link.info))
+        self.changed.wake()
+
+    def link_closed(self, link: IncomingLink) -> None:
+        self._links = tuple(other for other in self._links if other is not link)
+        self._node._emit(PeerDisconnected("subscriber", self.name, link.info, link.failure or ""))
+        self.changed.wake()
+
+    def deliver(self, frames: list[Received]) -> None:
+        """Give frames, all of one link, to every subscriber."""
+        link = frames[-1][0].link
+        if link.offer.latching:
+            link.latched = frames[-1]
+        if self._node._statistics is not None:
+            self._node._statistics.received(self, frames)
+        for sub in self.subscribers:
+            sub._offer(frames)
+
+    # at the master
+
+    async def _register(self) -> None:
+        node = self._node
+        updates = self._updates
+        for follower in self._followers.values():
+            follower.forgotten()
+        uris = await node._registrar.register_subscriber(self.name, self.type, node.uri)
+        # An announcement that overtook this answer is newer than it.
+        if updates == self._updates:
+            self.update(uris)
+
+    async def _unregister(self) -> None:
+        await self._node._registrar.unregister_subscriber(self.name, self._node.uri)
+
+
+class _Follower:
+    """Keeps one connection to one publisher."""
+
+    def __init__(self, subscription: Subscription, node: Node, uri: str) -> None:
+        self.task: asyncio.Task[None] | None = None
+        self._subscription = subscription
+        self._node = node
+        self._uri = uri
+        self._link: IncomingLink | None = None
+        self._stir = asyncio.Event()
+        self._leaving = False
+        self._was_forgotten = False
+        self._tries_local = True
+        self._complaint = ""
+
+    def stay(self) -> None:
+        """The master lists the publisher, again perhaps: no reason to wait any longer."""
+        self._leaving = False
+        self._was_forgotten = False
+        self._tries_local = True
+        self._stir.set()
+
+    def forgotten(self) -> None:
+        """We register again: the lists to come are of a master that was away, and is
+        perhaps another one, which knows only of those who have registered again as well.
+
+        rospy and roscpp never do. Until the publisher is listed once more, it is the
+        connection alone that tells whether it is still there.
+        """
+        self._was_forgotten = True
+
+    def leave(self) -> None:
+        """The master lists the publisher no more."""
+        self._leaving = True
+        if self._link is None:
+            self.cancel()
+        else:
+            self._stir.set()
+
+    def cancel(self) -> None:
+        self._subscription.follower_ended(self._uri)
+        if self.task is not None:
+            self.task.cancel()
+
+    async def run(self) -> None:
+        backoff = Backoff()
+        try:
+            while not self._leaving:
+                self._stir.clear()
+                try:
+                    await self._connect_and_receive(backoff)
+                except (HandshakeError, PeerError, OSError, TimeoutError) as error:
+                    self._complain(str(error))
+                if not self._leaving:
+                    await self._stirred(backoff.delay())
+            self._subscription.follower_ended(self._uri)
+        finally:
+            if self._link is not None:
+                self._link.abort()
+
+    async def _connect_and_receive(self, backoff: Backoff) -> None:
+        subscription = self._subscription
+        link = await self._connect()
+        loop = asyncio.get_running_loop()
+        begin = loop.time()
+        try:
+            await self._until_closed(link)
+        finally:
+            # Not for having connected alone: a publisher that accepts and then fails
+            # would be asked ten times a second for ever.
+            lasted = loop.time() - begin > backoff.longest
+            if link.info.stats.messages or lasted:
+                backoff.reset()
+            if lasted:
+                self._complaint = ""
+            link.abort()
+            self._link = None
+            subscription.link_closed(link)
+        if link.failure is not None:
+            self._complain(link.failure)
+
+    async def _connect(self) -> IncomingLink:
+        """Connect as the publisher says; over TCP, if another way does not work."""
+        node = self._node
+        local = node._acceptor.local
+        offers = local.offers() if self._tries_local else []
+        answer = await self._request_topic([["TCPROS"], *offers])
+        match answer:
+            case ["TCPROS", str(host), int(port), *_] if 0 < port < 65536:
+                return await self._shake_hands(await connect(host, port, node.timeouts))
+        if not offers:
+            topic = self._subscription.name
+            raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
+        try:
+            return await self._shake_hands(await local.connect(answer))
+        except (OSError, TimeoutError) as error:
+            node.log.debug(
+                "subscriber %s: publisher at %s: %s; trying TCP",
+                *(self._subscription.name, self._uri, error),
+            )
+        self._tries_local = False
+        return await self._connect()
+
+    async def _request_topic(self, protocols: list[list[str]]) -> list[Any]:
+        peer = NodeProxy(self._node._xmlrpc, self._uri, self._node.name)
+        return await peer.request_topic(self._subscription.name, protocols)
+
+    async def _shake_hands(self, stream: Stream) -> IncomingLink:
+        node, subscription = self._node, self._subscription
+        try:
+            client = TopicClient(
+                stream.peer,
+                node.name,
+                subscription.wanted(),
+                tcp_nodelay=any(sub.options.tcp_nodelay for sub in subscription.subscribers),
+                max_bytes=node.limits.header_bytes,
+                max_fields=node.limits.header_fields,
+            )
+            stream.writer.write(client.data_to_send())
+            await stream.receive_header(client, timeout=node.timeouts.handshake)
+            link = self._link = await self._open_link(stream, client)
+        except BaseException:
+            stream.abort()
+            raise
+        return link
+
+    async def _open_link(self, stream: Stream, client: TopicClient) -> IncomingLink:
+        node, subscription = self._node, self._subscription
+        link = IncomingLink(
+            stream,
+            connection_info(stream, subscription.name, "i", self._uri, client.header),
+            client.agreed,
+            subscription.deliver,
+            self._stir.set,
+            node._clock.nanoseconds,
+            max_bytes=node.limits.message_bytes,
+        )
+        rest = await take_over(stream, link)
+        subscription.link_opened(link)
+        if rest:
+            link.block_received(rest)
+        return link
+
+    async def _until_closed(self, link: IncomingLink) -> None:
+        """Wait for the end of the connection, or of the publisher's place in the list."""
+        while not link.is_closed:
+            if not self._leaving or self._was_forgotten:
+                await self._stirred(None)
+                continue
+            link.has_progressed()  # from now on
+            if not await self._stirred(_GRACE) and not link.has_progressed():
+                break
+
+    async def _stirred(self, timeout: float | None) -> bool:
+        """Wait until the master or the connection has news, at most ``timeout`` seconds;
+        whether there was any."""
+        try:
+            async with asyncio.timeout(timeout):
+                await self._stir.wait()
+        except TimeoutError:
+            return False
+        self._stir.clear()
+        return True
+
+    def _complain(self, text: str) -> None:
+        """Log what went wrong, once until it is something else or went well for a while."""
+        if text != self._complaint:
+            self._complaint = text
+            self._node.log.warning(
+                "subscriber %s: publisher at %s: %s", self._subscription.name, self._uri, text
+            )

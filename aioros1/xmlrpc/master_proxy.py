@@ -1,0 +1,165 @@
+"""The Master and Parameter Server API, called by a node (https://wiki.ros.org/ROS/Master_API)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+from aioros1.errors import MasterError, MasterUnreachable
+from aioros1.xmlrpc.answers import as_it_is, call_triple
+
+if TYPE_CHECKING:
+    from aioros1.xmlrpc.client import XmlRpcClient
+
+__all__ = ["MasterProxy", "SystemState", "TopicType", "topic_types"]
+
+T = TypeVar("T")
+
+
+class TopicType(NamedTuple):
+    """A topic and the type that its publishers announced."""
+
+    name: str
+    type: str
+
+
+class SystemState(NamedTuple):
+    """Who does what: topic or service name to the names of the nodes."""
+
+    publishers: dict[str, list[str]]
+    subscribers: dict[str, list[str]]
+    services: dict[str, list[str]]
+
+
+class MasterProxy:
+    """The master that a node belongs to.
+
+    Every method raises :class:`~aioros1.MasterUnreachable` when nobody answers within
+    ``timeouts.xmlrpc``, and :class:`~aioros1.MasterError` when the master refuses.
+    """
+
+    def __init__(
+        self, client: XmlRpcClient, uri: str, caller_id: str, *, timeout: float | None = None
+    ) -> None:
+        self._client = client
+        self._timeout = timeout
+        self.uri = uri
+        self.caller_id = caller_id
+        self.last_seen: float | None = None
+        """When the master last answered, by :func:`time.monotonic`."""
+
+    async def call(self, method: str, *params: Any, read: Callable[[Any], T] = as_it_is) -> T:
+        """Any method of the master's; the caller id is put in front.
+
+        ``read`` makes what is returned of the value that the master answers.
+        """
+        params = (self.caller_id, *params)
+        value = await call_triple(
+            *(self._client, self.uri, method, params, MasterError, MasterUnreachable),
+            read=read,
+            timeout=self._timeout,
+        )
+        self.last_seen = time.monotonic()
+        return value
+
+    # look-ups
+
+    async def lookup_node(self, name: str) -> str:
+        """The URI of a node's slave API."""
+        return await self.call("lookupNode", name, read=str)
+
+    async def lookup_service(self, name: str) -> str:
+        """The ``rosrpc://host:port`` of a service's provider."""
+        return await self.call("lookupService", name, read=str)
+
+    async def get_published_topics(self, subgraph: str = "") -> list[TopicType]:
+        """Topics with a publisher, all or those below a namespace."""
+        return await self.call("getPublishedTopics", subgraph, read=topic_types)
+
+    async def get_topic_types(self) -> list[TopicType]:
+        """Every topic whose type was ever announced, published or not."""
+        return await self.call("getTopicTypes", read=topic_types)
+
+    async def get_system_state(self) -> SystemState:
+        """All registrations."""
+        return await self.call("getSystemState", read=_system_state)
+
+    async def get_uri(self) -> str:
+        """The URI that the master knows itself by."""
+        return await self.call("getUri", read=str)
+
+    async def get_pid(self) -> int:
+        """The master's process id."""
+        return await self.call("getPid", read=int)
+
+    async def ping(self) -> float:
+        """Seconds that one round trip to the master takes."""
+        start = time.perf_counter()
+        await self.get_pid()
+        return time.perf_counter() - start
+
+    # registrations: roles make them; they are public for tools
+
+    async def register_publisher(self, topic: str, type: str, uri: str) -> list[str]:
+        """Announce a publisher; the URIs of the topic's subscribers."""
+        return await self.call("registerPublisher", topic, type, uri, read=_strings)
+
+    async def unregister_publisher(self, topic: str, uri: str) -> int:
+        return await self.call("unregisterPublisher", topic, uri, read=int)
+
+    async def register_subscriber(self, topic: str, type: str, uri: str) -> list[str]:
+        """Announce a subscriber; the URIs of the topic's publishers."""
+        return await self.call("registerSubscriber", topic, type, uri, read=_strings)
+
+    async def unregister_subscriber(self, topic: str, uri: str) -> int:
+        return await self.call("unregisterSubscriber", topic, uri, read=int)
+
+    async def register_service(self, service: str, service_uri: str, uri: str) -> None:
+        """Announce a provider at ``service_uri``, which is ``rosrpc://host:port``."""
+        await self.call("registerService", service, service_uri, uri)
+
+    async def unregister_service(self, service: str, service_uri: str) -> int:
+        return await self.call("unregisterService", service, service_uri, read=int)
+
+    # parameters
+
+    async def get_param(self, key: str) -> Any:
+        return await self.call("getParam", key)
+
+    async def set_param(self, key: str, value: Any) -> None:
+        await self.call("setParam", key, value)
+
+    async def has_param(self, key: str) -> bool:
+        return await self.call("hasParam", key, read=bool)
+
+    async def delete_param(self, key: str) -> None:
+        await self.call("deleteParam", key)
+
+    async def search_param(self, key: str) -> str:
+        return await self.call("searchParam", key, read=str)
+
+    async def get_param_names(self) -> list[str]:
+        return await self.call("getParamNames", read=_strings)
+
+    async def subscribe_param(self, key: str, uri: str) -> Any:
+        """Ask for updates of ``key``; its value now, ``{}`` when it is not set."""
+        return await self.call("subscribeParam", uri, key)
+
+    async def unsubscribe_param(self, key: str, uri: str) -> int:
+        return await self.call("unsubscribeParam", uri, key, read=int)
+
+
+def topic_types(rows: Any) -> list[TopicType]:
+    """[[topic, type], ...] as it comes in several answers."""
+    return [TopicType(*row) for row in rows]
+
+
+def _strings(values: Any) -> list[str]:
+    if not isinstance(values, list) or not all(isinstance(value, str) for value in values):
+        raise TypeError("expected a list of strings")
+    return values
+
+
+def _system_state(parts: Any) -> SystemState:
+    return SystemState(*({name: list(nodes) for name, nodes in part} for part in parts))

@@ -1,0 +1,193 @@
+"""The Slave API of another node, called by this one (https://wiki.ros.org/ROS/Slave_API)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
+
+from aioros1.errors import PeerError, PeerUnreachable
+from aioros1.xmlrpc.answers import as_it_is, call_triple
+from aioros1.xmlrpc.master_proxy import TopicType, topic_types
+
+if TYPE_CHECKING:
+    from aioros1.xmlrpc.client import XmlRpcClient
+
+__all__ = [
+    "BusInfo",
+    "BusStats",
+    "NodeProxy",
+    "PublishConnection",
+    "PublishStats",
+    "ServiceStats",
+    "SubscribeConnection",
+    "SubscribeStats",
+]
+
+T = TypeVar("T")
+
+
+class PublishConnection(NamedTuple):
+    connection_id: int
+    bytes_sent: int
+    num_sent: int
+    connected: bool
+
+
+class PublishStats(NamedTuple):
+    """What was published on one topic."""
+
+    topic: str
+    bytes_published: int
+    connections: list[PublishConnection]
+
+
+class SubscribeConnection(NamedTuple):
+    connection_id: int
+    bytes_received: int
+    num_received: int
+    """-1 when the node does not say; the documented answer has no such number."""
+    drop_estimate: int
+    """-1 when the node does not know, as the reference programs never do."""
+    connected: bool
+
+
+class SubscribeStats(NamedTuple):
+    """What was received on one topic."""
+
+    topic: str
+    connections: list[SubscribeConnection]
+
+
+class ServiceStats(NamedTuple):
+    num_requests: int
+    bytes_received: int
+    bytes_sent: int
+
+
+class BusStats(NamedTuple):
+    publish: list[PublishStats]
+    subscribe: list[SubscribeStats]
+    service: ServiceStats | None
+    """None when the node does not say, as the reference programs do not."""
+
+
+class BusInfo(NamedTuple):
+    """One connection of a node."""
+
+    connection_id: int
+    destination: str
+    direction: Literal["i", "o", "b"]
+    transport: str
+    topic: str
+    connected: bool
+    info: str = ""
+
+
+class NodeProxy:
+    """Another node.
+
+    Every method raises :class:`~aioros1.PeerUnreachable` when the node does not answer
+    within ``timeouts.xmlrpc``, and :class:`~aioros1.PeerError` when it refuses.
+    """
+
+    def __init__(self, client: XmlRpcClient, uri: str, caller_id: str, name: str = "") -> None:
+        self._client = client
+        self._caller_id = caller_id
+        self.uri = uri
+        self.name = name
+
+    async def call(
+        self,
+        method: str,
+        *params: Any,
+        bare: bool = False,
+        read: Callable[[Any], T] = as_it_is,
+    ) -> T:
+        """Any method of the node's; the caller id is put in front.
+
+        ``read`` makes what is returned of the value that the node answers; with ``bare``
+        the answer need not be ``[code, status, value]``.
+        """
+        params = (self._caller_id, *params)
+        return await call_triple(
+            self._client, self.uri, method, params, PeerError, PeerUnreachable, bare=bare, read=read
+        )
+
+    async def get_bus_stats(self) -> BusStats:
+        """Counters of all connections."""
+        return await self.call("getBusStats", bare=True, read=_bus_stats)
+
+    async def get_bus_info(self) -> list[BusInfo]:
+        """All connections."""
+        return await self.call("getBusInfo", read=_bus_info)
+
+    async def get_master_uri(self) -> str:
+        """The URI of the node's master. roscpp has no such method, and refuses."""
+        return await self.call("getMasterUri", read=str)
+
+    async def shutdown(self, reason: str = "") -> None:
+        """Ask the node to end.
+
+        rospy obeys without answering, so that a connection that is lost instead of an
+        answer is as good as one.
+        """
+        try:
+            await self.call("shutdown", reason)
+        except PeerUnreachable as error:
+            if not isinstance(error.__cause__, ConnectionResetError):
+                raise
+
+    async def get_pid(self) -> int:
+        return await self.call("getPid", read=int)
+
+    async def get_subscriptions(self) -> list[TopicType]:
+        return await self.call("getSubscriptions", read=topic_types)
+
+    async def get_publications(self) -> list[TopicType]:
+        return await self.call("getPublications", read=topic_types)
+
+    async def request_topic(self, topic: str, protocols: Sequence[Sequence[Any]]) -> list[Any]:
+        """Ask a publisher how to connect; its choice among ``protocols``, with parameters."""
+        return await self.call("requestTopic", topic, protocols, read=_list)
+
+    async def ping(self) -> float:
+        """Seconds that one round trip to the node takes."""
+        start = time.perf_counter()
+        await self.get_pid()
+        return time.perf_counter() - start
+
+
+def _list(value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise TypeError("expected a list")
+    return value
+
+
+def _bus_info(rows: Any) -> list[BusInfo]:
+    return [BusInfo(*row[:7]) for row in rows]
+
+
+def _bus_stats(answer: Sequence[Any]) -> BusStats:
+    publish, subscribe, service = (*answer, [], [], [])[:3]
+    return BusStats(
+        [_published(row) for row in publish],
+        [SubscribeStats(topic, [_received(row) for row in rows]) for topic, rows in subscribe],
+        # rospy and roscpp give nothing here.
+        ServiceStats(*service) if isinstance(service, list) and len(service) == 3 else None,
+    )
+
+
+def _published(row: Sequence[Any]) -> PublishStats:
+    if len(row) == 2:  # roscpp counts the bytes of the messages for each connection instead
+        topic, rows = row
+        connections = [PublishConnection(each[0], each[1], each[3], bool(each[4])) for each in rows]
+        return PublishStats(topic, sum(each[2] for each in rows), connections)
+    topic, count, rows = row
+    return PublishStats(topic, count, [PublishConnection(*each) for each in rows])
+
+
+def _received(row: Sequence[Any]) -> SubscribeConnection:
+    if len(row) == 4:  # as documented; rospy and roscpp put the number of messages second
+        return SubscribeConnection(row[0], row[1], -1, row[2], bool(row[3]))
+    return SubscribeConnection(row[0], row[1], row[2], row[3], bool(row[4]))

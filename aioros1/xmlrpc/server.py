@@ -1,0 +1,422 @@
+"""An XML-RPC server: the slave API of a node, and the master.
+
+HTTP is aiohttp's low-level server. Its long-lived connections matter: rospy, rosmaster
+and our own client keep a connection per peer and send request after request over it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+import logging
+import zlib
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from aiohttp import web
+
+from aioros1.net.admission import Admission
+from aioros1.net.allow import AllowList
+from aioros1.net.hosts import bind_sockets
+from aioros1.net.rate_limit import RateLimit
+from aioros1.options import Limits
+from aioros1.wire.xmlrpc import (
+    XmlRpcError,
+    XmlRpcFault,
+    decode_call,
+    encode_fault,
+    encode_response,
+)
+from aioros1.xmlrpc.server_http import Answer, Connection, Quiet, plain
+
+__all__ = ["Method", "Reply", "XmlRpcServer"]
+
+Method = Callable[..., Any]
+"""Takes the parameters of the request; returns the value to answer, a :class:`Reply`, or
+an awaitable of either."""
+
+KEEP_ALIVE = 3600.0
+"""Seconds before an idle connection is closed.
+
+Long, because a client that sends just as we close sees its connection reset and cannot
+know whether the request was obeyed; the servers of ROS 1 never close first. Not endless,
+because of peers that vanish without a word.
+"""
+
+# The codes of faults are those of the "Specification for Fault Code Interoperability".
+FAULT_PARSE = -32700
+FAULT_NO_METHOD = -32601
+FAULT_PARAMS = -32602
+FAULT_APPLICATION = -32500
+
+_LOG = logging.getLogger("aioros1.xmlrpc")
+_PATHS = frozenset({"/", "/RPC2"})
+_YIELD_EVERY = 32
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """An answer with a consequence: ``after`` is called once ``value`` has been sent.
+
+    It is called even if the client has gone meanwhile. It is a plain function.
+    """
+
+    value: Any
+    after: Callable[[], object]
+
+
+class XmlRpcServer:
+    """Serves ``methods`` by name, and ``system.multicall`` over them.
+
+    A method is looked up in the mapping and nowhere else. A request with the wrong number
+    of parameters is answered as the programs of ROS 1 do, with ``[-1, text, 0]``; what
+    a method raises becomes a fault, is logged, and the server goes on.
+    """
+
+    def __init__(
+        self,
+        methods: Mapping[str, Method],
+        *,
+        limits: Limits | None = None,
+        allow: AllowList | None = None,
+        log: logging.Logger | logging.LoggerAdapter[Any] | None = None,
+    ) -> None:
+        self._methods = {name: (method, *_arity(method)) for name, method in methods.items()}
+        self._limits = limits = limits if limits is not None else Limits()
+        self._log = log if log is not None else _LOG
+        self.admission = Admission(
+            "the XML-RPC port",
+            allow=allow,
+            total=("xmlrpc_connections", limits.xmlrpc_connections),
+            per_host=limits.connections_per_host,
+            log=self._log,
+        )
+        self._rate: RateLimit | None = None
+        if limits.requests_per_second is not None:
+            self._rate = RateLimit(limits.requests_per_second, limits.requests_burst)
+        self.delayed = 0
+        """Requests that had to wait, because their host had sent too many."""
+        self._http: web.Server | None = None
+        self._listeners: list[asyncio.Server] = []
+        self._connections: set[Connection] = set()
+        # The requests in progress, and the connections that have had one.
+        self._running: set[asyncio.Task[Any]] = set()
+        self._serving: set[asyncio.Task[Any]] = set()
+        self._waiting: set[asyncio.Task[Any]] = set()
+        self._sweeper: asyncio.TimerHandle | None = None
+        self._port = 0
+
+    @property
+    def port(self) -> int:
+        """The TCP port; 0 before the start."""
+        return self._port
+
+    async def start(self, host: str = "0.0.0.0", port: int = 0) -> None:
+        """Listen on the numeric address ``host``; see :func:`.hosts.bind_sockets`.
+
+        Raises :class:`OSError` when the address or the port is not to be had.
+        """
+        if self._http is not None:
+            raise RuntimeError("the server was started before")
+        loop = asyncio.get_running_loop()
+        sockets = bind_sockets(host, port)
+        self._port = int(sockets[0].getsockname()[1])
+        self._http = http = web.Server(self._handle)
+        self._sweep()
+        quiet: Any = Quiet(self._log)
+
+        def connection() -> Connection:
+            return Connection(
+                self._connections,
+                self.admission,
+                http,
+                loop=loop,
+                keepalive_timeout=KEEP_ALIVE,
+                lingering_time=1.0,
+                access_log=None,
+                auto_decompress=False,
+                logger=quiet,
+            )
+
+        try:
+            for sock in sockets:
+                # Not in one with serving, during which asyncio lets others run: if that is
+                # cancelled, nobody has the server and could close it.
+                listener = await loop.create_server(
+                    connection, sock=sock, backlog=512, start_serving=False
+                )
+                self._listeners.append(listener)
+                await listener.start_serving()
+        except BaseException:
+            await self.close()
+            for sock in sockets:
+                sock.close()
+            raise
+
+    async def close(self, *, timeout: float = 1.0) -> None:
+        """Stop listening, let requests in progress finish for ``timeout`` seconds, close
+        every connection. Not to be called from a method: it would wait for itself."""
+        if asyncio.current_task() in self._running:
+            raise RuntimeError("a method cannot close its own server: use Reply(after=...)")
+        listeners, self._listeners = self._listeners, []
+        for listener in listeners:
+            listener.close()
+        http = self._http
+        if http is None:
+            return
+        if self._sweeper is not None:
+            self._sweeper.cancel()
+        http.pre_shutdown()
+        # aiohttp loses sight of the tasks of a connection whose peer has gone, and would
+        # leave them behind; so they are ended here.
+        await _cancel(self._waiting)  # these have not begun
+        if self._running:
+            await asyncio.wait(self._running, timeout=timeout)
+        await _cancel(self._running)
+        await http.shutdown(0.1)
+        for connection in list(self._connections):
+            connection.abort()
+        await _cancel(self._serving)
+        # A transport tells its protocol of the end in a later turn of the loop.
+        for _ in range(100):
+            if not self._connections:
+                break
+            await asyncio.sleep(0)
+        await asyncio.sleep(0)
+
+    def _sweep(self) -> None:
+        """Close what has waited too long for the head of a request; one timer for all."""
+        loop = asyncio.get_running_loop()
+        patience = self._limits.xmlrpc_timeout
+        for connection in list(self._connections):
+            connection.close_if_late(loop.time() - patience)
+        self._sweeper = loop.call_later(patience / 4, self._sweep)
+
+    # ------------------------------------------------------------------ one request
+
+    async def _handle(self, request: web.BaseRequest) -> web.StreamResponse:
+        connection = request.protocol
+        task = asyncio.current_task()
+        assert isinstance(connection, Connection)
+        assert task is not None
+        self._running.add(task)
+        connection.request_begins()
+        if request.task not in self._serving:
+            self._serving.add(request.task)
+            request.task.add_done_callback(self._serving.discard)
+        try:
+            if self._rate is not None:
+                await self._take_turn(self._rate, connection, task)
+            refusal = self._refuse(request)
+            if refusal is not None:
+                return refusal
+            content = request.content
+            if content.is_eof() and "Content-Encoding" not in request.headers:
+                body: bytes | web.Response = content.read_nowait()  # it is all there already
+            else:
+                try:
+                    async with asyncio.timeout(self._limits.xmlrpc_timeout):
+                        body = await self._read(request)
+                except TimeoutError:
+                    return plain(408, "the request did not arrive in time", close=True)
+            if not isinstance(body, bytes):
+                return body
+            document, afters = await self._answer(body, connection.host)
+            return await self._send(request, document, afters)
+        finally:
+            connection.request_ends()
+            self._running.discard(task)
+
+    async def _take_turn(
+        self, rate: RateLimit, connection: Connection, task: asyncio.Task[Any]
+    ) -> None:
+        """Wait if the host has sent too many requests. Nothing more is read from the
+        connection then than fits into its buffers.
+
+        Raises :class:`ConnectionResetError` when the peer does not wait for the answer: a
+        host has no more requests waiting here than it has connections.
+        """
+        host = connection.host
+        assert host is not None
+        delay = rate.take(host, asyncio.get_running_loop().time())
+        if not delay:
+            return
+        self.delayed += 1
+        self._waiting.add(task)
+        try:
+            if await connection.is_gone_after(delay):
+                rate.give_back(host)
+                raise ConnectionResetError("the client has gone")
+        finally:
+            self._waiting.discard(task)
+
+    def _refuse(self, request: web.BaseRequest) -> web.Response | None:
+        headers = request.headers
+        if request.path not in _PATHS:
+            return plain(404, "XML-RPC is served at / and /RPC2")
+        if request.method != "POST":
+            return plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
+        if "Origin" in headers:
+            # Of a web page in somebody's browser, wherever that came from. It could not read
+            # the answer, but need not, to end a node.
+            return plain(403, "XML-RPC is not for web pages", close=True)
+        if "Transfer-Encoding" in headers:
+            return None
+        length = headers.get("Content-Length")
+        if length is None:
+            return plain(411, "a Content-Length is needed", close=True)
+        if int(length) > self._limits.xmlrpc_bytes:
+            return self._too_large()
+        return None
+
+    def _too_large(self) -> web.Response:
+        return plain(413, f"more than {self._limits.xmlrpc_bytes} bytes", close=True)
+
+    async def _read(self, request: web.BaseRequest) -> bytes | web.Response:
+        """The body, inflated if need be; or the answer that refuses it."""
+        if request.headers.get("Expect", "").lower() == "100-continue":
+            await request.writer.write(b"HTTP/1.1 100 Continue\r\n\r\n")
+            request.writer.output_size = 0
+        coding = request.headers.get("Content-Encoding", "identity").strip().lower()
+        if coding not in ("", "identity", "gzip", "x-gzip"):
+            return plain(415, f"unknown Content-Encoding: {coding}", close=True)
+        inflate = zlib.decompressobj(wbits=31) if coding.endswith("gzip") else None
+        room = self._limits.xmlrpc_bytes
+        chunks: list[bytes] = []
+        content = request.content
+        while chunk := await content.readany():
+            if inflate is not None:
+                try:
+                    chunk = inflate.decompress(chunk, room + 1)  # bounds a bomb of zeros
+                except zlib.error as error:
+                    return plain(400, f"not gzip: {error}", close=True)
+            room -= len(chunk)
+            if room < 0:
+                return self._too_large()
+            chunks.append(chunk)
+        if inflate is not None and not inflate.eof:
+            return plain(400, "the gzip data ends early", close=True)
+        return chunks[0] if len(chunks) == 1 else b"".join(chunks)
+
+    async def _send(
+        self, request: web.BaseRequest, document: bytes, afters: list[Callable[[], object]]
+    ) -> Answer:
+        answer = Answer(document, patience=self._limits.xmlrpc_timeout, flush=bool(afters))
+        if not afters:
+            return answer
+        try:
+            await answer.prepare(request)
+        finally:
+            for after in afters:
+                try:
+                    after()
+                except Exception:
+                    self._log.exception("a consequence of an XML-RPC request failed")
+        return answer
+
+    # ------------------------------------------------------------------ one call
+
+    async def _answer(
+        self, body: bytes, host: str | None
+    ) -> tuple[bytes, list[Callable[[], object]]]:
+        afters: list[Callable[[], object]] = []
+        limits = self._limits
+        try:
+            name, params = decode_call(
+                body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
+            )
+        except XmlRpcError as error:
+            return encode_fault(FAULT_PARSE, str(error)), afters
+        try:
+            if name == "system.multicall":
+                if self._rate is not None and host and params and isinstance(params[0], list):
+                    # Each call in it is a request; one of them was counted before.
+                    now = asyncio.get_running_loop().time()
+                    self._rate.take(host, now, max(len(params[0]) - 1, 0))
+                value = await self._multicall(params, afters)
+            else:
+                value = await self._call(name, params, afters)
+            return encode_response(value, max_depth=limits.xmlrpc_depth), afters
+        except XmlRpcFault as fault:
+            return encode_fault(fault.code, fault.text), afters
+        except (TypeError, ValueError, OverflowError) as error:
+            self._log.error("the result of %s cannot be sent: %s", name, error)
+            return encode_fault(FAULT_APPLICATION, f"{name}: {error}"), afters
+
+    async def _call(
+        self, name: str, params: tuple[Any, ...], afters: list[Callable[[], object]]
+    ) -> Any:
+        """What the method returned; raises :class:`XmlRpcFault` and nothing else."""
+        entry = self._methods.get(name)
+        if entry is None:
+            raise XmlRpcFault(FAULT_NO_METHOD, f'method "{name}" is not supported')
+        method, least, most = entry
+        if not least <= len(params) <= most:
+            if not params:
+                return [-1, "missing required caller_id parameter", 0]
+            return [-1, f"Error: bad call arity: {name} takes {_range(least, most)} parameters", 0]
+        try:
+            value = method(*params)
+            if isinstance(value, Awaitable):
+                value = await value
+        except XmlRpcFault:
+            raise
+        except Exception as error:
+            self._log.exception("XML-RPC method %s failed", name)
+            raise XmlRpcFault(FAULT_APPLICATION, f"{type(error).__name__}: {error}") from error
+        if isinstance(value, Reply):
+            afters.append(value.after)
+            return value.value
+        return value
+
+    async def _multicall(
+        self, params: tuple[Any, ...], afters: list[Callable[[], object]]
+    ) -> list[Any]:
+        """Many calls in one request; each has its own result or fault."""
+        if len(params) != 1 or not isinstance(params[0], list):
+            raise XmlRpcFault(FAULT_PARAMS, "system.multicall takes one array")
+        results: list[Any] = []
+        for count, call in enumerate(params[0], 1):
+            try:
+                results.append([await self._call(*_multicall_entry(call), afters)])
+            except XmlRpcFault as fault:
+                results.append({"faultCode": fault.code, "faultString": fault.text})
+            if count % _YIELD_EVERY == 0:
+                await asyncio.sleep(0)
+        return results
+
+
+async def _cancel(tasks: set[asyncio.Task[Any]]) -> None:
+    ended = list(tasks)
+    for task in ended:
+        task.cancel()
+    if ended:
+        await asyncio.wait(ended)
+
+
+def _multicall_entry(call: Any) -> tuple[str, tuple[Any, ...]]:
+    if not isinstance(call, dict):
+        raise XmlRpcFault(FAULT_PARAMS, "an entry of system.multicall is a struct")
+    name, params = call.get("methodName"), call.get("params")
+    if not isinstance(name, str) or not isinstance(params, list):
+        raise XmlRpcFault(FAULT_PARAMS, "an entry of system.multicall has methodName and params")
+    if name == "system.multicall":
+        raise XmlRpcFault(FAULT_PARAMS, "system.multicall inside system.multicall")
+    return name, tuple(params)
+
+
+def _arity(method: Method) -> tuple[int, float]:
+    """The least and the greatest number of positional arguments ``method`` takes."""
+    least, most = 0, 0.0
+    for parameter in inspect.signature(method).parameters.values():
+        if parameter.kind is parameter.VAR_POSITIONAL:
+            most = float("inf")
+        elif parameter.kind in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
+            most += 1
+            least += parameter.default is parameter.empty
+    return least, most
+
+
+def _range(least: int, most: float) -> str:
+    return f"{least}" if least == most else f"{least} to {most:g}"
