@@ -57,9 +57,11 @@ _MODULES = {
     "params.subscriber": ("ParamSubscriber",),
     "xmlrpc.node_proxy": ("NodeProxy",),
     "topics.publisher": ("Publisher",),
-    "script": ("run", "wait_for_master"),
+    "node.wait_for_master": ("wait_for_master",),
+    "script": ("run",),
     "services.caller": ("ServiceCaller",),
-    "services.provider": ("ServiceCall", "ServiceProvider"),
+    "services.call": ("ServiceCall",),
+    "services.provider": ("ServiceProvider",),
     "topics.subscriber": ("MessageEvent", "Subscriber"),
     "time": ("Duration", "Time"),
 }

@@ -36,13 +36,13 @@ from aioros1.idl.importer import install_importer as install_importer
 from aioros1.idl.importer import uninstall_importer as uninstall_importer
 from aioros1.master import Master as Master
 from aioros1.node import Node as Node
+from aioros1.node.wait_for_master import wait_for_master as wait_for_master
 from aioros1.options import Limits as Limits
 from aioros1.options import Timeouts as Timeouts
 from aioros1.params.subscriber import ParamSubscriber as ParamSubscriber
 from aioros1.script import run as run
-from aioros1.script import wait_for_master as wait_for_master
+from aioros1.services.call import ServiceCall as ServiceCall
 from aioros1.services.caller import ServiceCaller as ServiceCaller
-from aioros1.services.provider import ServiceCall as ServiceCall
 from aioros1.services.provider import ServiceProvider as ServiceProvider
 from aioros1.time import Duration as Duration
 from aioros1.time import Time as Time

@@ -56,7 +56,7 @@ class ConnectionInfo:
     fileno: int
     """The file descriptor of the socket; -1 if there is none."""
 
-    header: Mapping[str, str]
+    header: Mapping[str, str] = field(repr=False)
     """The connection header that the other side sent."""
 
     transport: str = "TCPROS"

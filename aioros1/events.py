@@ -8,10 +8,12 @@ from typing import Any, Generic, Self, TypeVar
 from weakref import WeakSet
 
 from aioros1.connection import ConnectionInfo
+from aioros1.time import Time
 from aioros1.waiting import Waiters
 
 __all__ = [
     "Broadcast",
+    "ClockJumped",
     "Event",
     "EventStream",
     "MasterLost",
@@ -95,6 +97,18 @@ class MasterRestarted(Event):
     run_id: str
 
 
+@dataclass(frozen=True, slots=True)
+class ClockJumped(Event):
+    """The time of the node has jumped: ``/clock`` went backwards, as when a simulation or a
+    bag starts over, or the node began or ceased to follow it.
+
+    Whoever keeps stamped data forgets it then.
+    """
+
+    before: Time
+    now: Time
+
+
 T = TypeVar("T")
 
 
@@ -148,6 +162,10 @@ class EventStream(Generic[T]):
                 raise StopAsyncIteration
             await self._waiters.wait()
         return self._queue.popleft()
+
+    def __repr__(self) -> str:
+        state = "ended" if self._closed else "open"
+        return f"<EventStream, {len(self._queue)} waiting, {self.dropped} dropped, {state}>"
 
     def _put(self, item: T) -> None:
         self.dropped += len(self._queue) == self._queue.maxlen

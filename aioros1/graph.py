@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
+from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
 from aioros1.waiting import deadline
-
-if TYPE_CHECKING:
-    from aioros1.node import Node
 
 __all__ = ["Graph", "GraphChange", "GraphChanges", "GraphNode", "GraphSnapshot"]
 
@@ -96,12 +94,15 @@ class Graph:
     following the graph means asking again and again.
     """
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(self, context: Context) -> None:
+        self._context = context
+
+    def __repr__(self) -> str:
+        return f"<Graph of the master at {self._context.master.uri}>"
 
     async def snapshot(self) -> GraphSnapshot:
         """The graph now. Raises :class:`~aioros1.MasterError`."""
-        master = self._node.master
+        master = self._context.master
         state = await master.get_system_state()
         types = await master.get_topic_types()
         publishers, subscribers, services = (
@@ -133,7 +134,7 @@ class Graph:
         _positive(poll)
         async with deadline(timeout, "the graph did not become as wanted"):
             while not predicate(snapshot := await self.snapshot()):
-                await self._node._pause(poll)
+                await self._context.pause(poll)
         return snapshot
 
 
@@ -155,25 +156,28 @@ class GraphChanges:
 
     async def __anext__(self) -> GraphChange:
         """The next change. Raises :class:`~aioros1.MasterError`."""
-        node = self._graph._node
+        context = self._graph._context
         try:
             if self._before is None and not self._has_ended:
                 self._before = await self._graph.snapshot()
             while self._before is not None and not self._has_ended:
-                await node._pause(self._poll)
+                await context.pause(self._poll)
                 now = await self._graph.snapshot()
                 old, new = self._before._registrations(), now._registrations()
                 self._before = now
                 if old != new:
                     return GraphChange(now, new - old, old - new)
         except (ClosedError, MasterError):
-            if node.is_open:
+            if context.is_open:
                 raise
         raise StopAsyncIteration
 
     async def aclose(self) -> None:
         """End the iteration. There is no need to: nothing is held."""
         self._has_ended = True
+
+    def __repr__(self) -> str:
+        return f"<changes of {self._graph!r}>"
 
 
 def _positive(poll: float) -> float:

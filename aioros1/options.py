@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 __all__ = [
+    "DEFAULT_QUEUE_SIZE",
     "LOCAL_TRANSPORTS",
     "Limits",
     "LocalTransport",
@@ -27,7 +28,10 @@ LocalTransport = Literal["intraprocess", "unix"]
 """A way for messages between nodes of this library: within one event loop, within one host."""
 
 LOCAL_TRANSPORTS: tuple[LocalTransport, ...] = ()
-"""Those that a node uses which does not say."""
+"""The default of the option ``local_transports``."""
+
+DEFAULT_QUEUE_SIZE = 10
+"""Messages that wait in the queue of a publisher or a subscriber by default."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,19 +6,14 @@ import asyncio
 import contextlib
 import signal
 import sys
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
-from aioros1.errors import ClosedError, MasterError
-from aioros1.log.log_file import log_file
+from aioros1.errors import ClosedError
 from aioros1.node import Node
-from aioros1.node.identity import master_uri_of
-from aioros1.waiting import deadline
-from aioros1.xmlrpc.client import XmlRpcClient
-from aioros1.xmlrpc.master_proxy import MasterProxy
 
-__all__ = ["run", "wait_for_master"]
+__all__ = ["run"]
 
 T = TypeVar("T")
 
@@ -51,7 +46,7 @@ def run(
         name = Path(sys.argv[0]).stem or "aioros1"
     node_options.setdefault("argv", sys.argv[1:])
     node = Node(name, **node_options)
-    with log_file(node), asyncio.Runner(loop_factory=loop_factory) as runner:
+    with _log_file(node), asyncio.Runner(loop_factory=loop_factory) as runner:
         return runner.run(_run(main, node))
 
 
@@ -116,24 +111,15 @@ class _Signals:
         main.cancel()
 
 
-async def wait_for_master(uri: str | None = None, *, timeout: float | None = None) -> None:
-    """Wait until a master answers at ``uri`` (``ROS_MASTER_URI`` by default).
-
-    Raises :class:`TimeoutError` after ``timeout`` seconds, and :class:`ValueError` for
-    what is no URI.
-    """
-    uri = master_uri_of(uri)
-    client = XmlRpcClient()
-    try:
-        master = MasterProxy(client, uri, "/aioros1")
-        async with deadline(timeout, f"no master at {uri}") as limit:
-            while True:
-                try:
-                    await master.get_pid()
-                except MasterError as error:
-                    limit.why = error
-                else:
-                    return
-                await asyncio.sleep(0.1)
-    finally:
-        await client.close()
+@contextlib.contextmanager
+def _log_file(node: Node) -> Iterator[None]:
+    """Write the log to the file that the command line names, if it does and that can be done."""
+    if node.log_file is None:
+        yield
+        return
+    with contextlib.ExitStack() as stack:
+        try:
+            stack.enter_context(node.log.to_file(node.log_file))
+        except OSError as error:
+            node.log.warning("__log:=%s: no log is written there: %s", node.log_file, error)
+        yield

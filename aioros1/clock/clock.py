@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 import time
+from collections.abc import Callable
 
 from aioros1.time import Duration, Time
 from aioros1.waiting import Waiters
@@ -18,14 +19,17 @@ class Clock:
     While time is simulated it is what ``/clock`` said last, zero before that, and
     waiting goes by it. When it jumps backwards, because a simulation or a bag starts
     over, whoever waits goes on at once: the time waited for may never come. The same
-    holds when time becomes simulated, or is so no more.
+    holds when time becomes simulated, or is so no more. Of each of these jumps ``on_jump`` is
+    told, with the nanoseconds before and after.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, on_jump: Callable[[int, int], object] | None = None) -> None:
         self.is_simulated = False
+        """Whether the time is that of ``/clock``."""
         self._simulated = 0
         self._changed = Waiters()
         self._awaited: list[int] = []  # by those who wait for simulated time
+        self._on_jump = on_jump
 
     def nanoseconds(self) -> int:
         """Nanoseconds since the epoch, or of the simulation."""
@@ -34,26 +38,36 @@ class Clock:
     def simulate(self) -> None:
         """From now on the time is what :meth:`set` says."""
         if not self.is_simulated:
+            before = self.nanoseconds()
             self.is_simulated = True
-            self._changed.wake()
+            self._jumped(before)
 
     def stop_simulating(self) -> None:
         """From now on the time is that of the wall clock."""
+        before = self.nanoseconds()
         self.is_simulated = False
         self._simulated = 0
-        self._changed.wake()
+        self._jumped(before)
 
     def set(self, now: Time) -> None:
         """Simulated time has come to ``now``."""
-        self._simulated = now.to_nsec()
+        before, self._simulated = self._simulated, now.to_nsec()
+        if self.is_simulated and self._simulated < before:
+            self._jumped(before)
+        else:
+            self._changed.wake()
+
+    def _jumped(self, before: int) -> None:
         self._changed.wake()
+        if self._on_jump is not None:
+            self._on_jump(before, self.nanoseconds())
 
     @property
     def next_awaited(self) -> int | None:
         """The earliest moment of simulated time that somebody waits for, in nanoseconds."""
         return min(self._awaited, default=None)
 
-    async def wait_until_shows(self, moment: int, *, timeout: float) -> None:
+    async def wait_until_shows(self, moment: int, *, timeout: float | None) -> None:
         """Wait until simulated time is exactly ``moment`` nanoseconds."""
         await self._changed.wait_until(
             lambda: self.is_simulated and self._simulated == moment,

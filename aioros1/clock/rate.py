@@ -13,7 +13,7 @@ __all__ = ["Rate", "period_of"]
 
 
 class Rate:
-    """An iterator over the times at which a period begins; made by :meth:`Node.rate`.
+    """An iterator over the times at which a period begins; made by :meth:`aioros1.Node.rate`.
 
     The phase is kept: a body that takes a while shortens the pause after it, and one
     that takes longer than a period makes the ticks it missed be skipped. By the wall
@@ -54,6 +54,9 @@ class Rate:
     async def aclose(self) -> None:
         """End the iteration. There is no need to: nothing is held."""
         self._has_ended = True
+
+    def __repr__(self) -> str:
+        return f"<Rate of {1e9 / self._period:g} Hz, {self.missed} ticks missed>"
 
     async def _wait(self) -> None:
         clock = self._clock

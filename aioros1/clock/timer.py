@@ -4,39 +4,47 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
-from aioros1.clock.clock import to_nanoseconds
+from aioros1.clock.clock import Clock, to_nanoseconds
 from aioros1.clock.rate import Rate
 from aioros1.time import Duration, Time
-
-if TYPE_CHECKING:
-    from aioros1.node import Node
 
 __all__ = ["Timer"]
 
 
+class Spawn(Protocol):
+    """Runs a coroutine function in a task that ends with the node."""
+
+    def __call__(
+        self, function: Callable[[], Awaitable[None]], /, *, name: str
+    ) -> asyncio.Task[None]: ...
+
+
 class Timer:
-    """Calls a function again and again; made by :meth:`Node.timer`."""
+    """Calls a function again and again; made by :meth:`aioros1.Node.timer`."""
 
     def __init__(
         self,
-        node: Node,
+        clock: Clock,
+        spawn: Spawn,
+        on_error: Callable[[Exception, str], object],
         period: float | Duration,
         callback: Callable[[Time], Any] | Callable[[Time], Awaitable[Any]],
         *,
-        oneshot: bool,
+        oneshot: bool = False,
     ) -> None:
         if not callable(callback):
             raise TypeError(f"a timer calls a function, got {callback!r}")
         nanoseconds = to_nanoseconds(period)
         if not nanoseconds > 0:
             raise ValueError(f"the period of a timer must be positive, got {period!r}")
-        self._node = node
-        self._rate = Rate(node._clock, nanoseconds)
+        self._period = Duration.from_nsec(nanoseconds)
+        self._rate = Rate(clock, nanoseconds)
         self._callback = callback
         self._oneshot = oneshot
-        self._task = node._spawn(self._run, name=f"{node.name} timer")
+        self._on_error = on_error
+        self._task = spawn(self._run, name="timer")
 
     def cancel(self) -> None:
         """Call the function no more; a call that runs is cancelled."""
@@ -49,6 +57,11 @@ class Timer:
                 if asyncio.iscoroutine(result) or asyncio.isfuture(result):
                     await result
             except Exception as error:  # the user's code; what becomes of it is an option
-                self._node._user_error(error, "the callback of a timer")
+                self._on_error(error, "the callback of a timer")
             if self._oneshot:
                 return
+
+    def __repr__(self) -> str:
+        what = "once after" if self._oneshot else "every"
+        state = "ended" if self._task.done() else "running"
+        return f"<Timer {what} {self._period.to_sec():g} s, {state}>"

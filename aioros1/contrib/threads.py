@@ -326,7 +326,7 @@ class NodeThread:
             try:
                 function(item)
             except Exception as error:
-                self.node._user_error(error, f"the callback {_name(function)}")
+                self.node.handle_error(error, f"the callback {_name(function)}")
 
 
 def _result(future: Future[T]) -> T:

@@ -13,30 +13,46 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
 
+from aioros1.core.supervisor import Supervisor
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
-from aioros1.events import RoleRegistered, RoleUnregistered
+from aioros1.events import Event, RoleRegistered, RoleUnregistered
 
-if TYPE_CHECKING:
-    from aioros1.node import Node
-
-__all__ = ["Registration"]
+__all__ = ["Registration", "Tell", "Terms"]
 
 Tell = Callable[[], Awaitable[object]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Terms:
+    """What the entries of one node have in common."""
+
+    node_name: str
+    master_uri: str
+    patience: float
+    """Seconds that somebody waits for the master."""
+    slots: asyncio.Semaphore
+    """What each request gets hold of: not all of them are sent at a time."""
+    supervisor: Supervisor
+    emit: Callable[[Event], None]
+    table: dict[tuple[str, str], Registration] = field(default_factory=dict)
+    """By kind and name, those that have users, or of which the master is yet to hear."""
 
 
 class Registration:
     """Registered while it has users, and again whenever the master has forgotten.
 
-    Made by :meth:`Roles.registration`. ``register`` and ``unregister`` talk to the master.
+    Made by :meth:`.Registrations.entry`. ``register`` and ``unregister`` talk to the master.
     """
 
-    def __init__(self, node: Node, kind: str, name: str, register: Tell, unregister: Tell) -> None:
+    def __init__(
+        self, terms: Terms, kind: str, name: str, register: Tell, unregister: Tell
+    ) -> None:
         self.kind = kind
         self.name = name
         self.users = 0
-        self._node = node
+        self._terms = terms
         self._register = register
         self._unregister = unregister
         self._is_at_master: bool | None = False  # None: it may be, or not
@@ -76,7 +92,7 @@ class Registration:
         for any request, and not if he cancels again. The node waits for it when it closes.
         """
         self.users += 1
-        self._node._roles.registrations[self.kind, self.name] = self
+        self._terms.table[self.kind, self.name] = self
         try:
             if self.users == 1 or not self._is_established:
                 await self._settle(True)
@@ -121,12 +137,12 @@ class Registration:
 
     async def _settle(self, wanted: bool) -> None:
         """Wait until the master has been told, unless somebody else wants the opposite."""
-        patience = self._node.timeouts.xmlrpc
+        patience = self._terms.patience
         loop = asyncio.get_running_loop()
         end = loop.time() + patience
         while self._is_at_master is not wanted or self._is_outdated:
             if self._has_ended and wanted:
-                self._node._check_open()
+                raise self._closed()
             if self._is_wanted is not wanted:
                 return
             work = self._begin()
@@ -134,7 +150,7 @@ class Registration:
             if not done:
                 raise MasterUnreachable(
                     f"{self.kind} {self.name}: no answer of the master at "
-                    f"{self._node.master_uri} within {patience:g} s"
+                    f"{self._terms.master_uri} within {patience:g} s"
                 )
             about, failure = work.result()
             if failure is not None and about is wanted:
@@ -147,7 +163,7 @@ class Registration:
         with contextlib.suppress(ClosedError):  # too late: all connections are closed
             work = self._begin()
             if waits:
-                await asyncio.wait({work}, timeout=self._node.timeouts.xmlrpc)
+                await asyncio.wait({work}, timeout=self._terms.patience)
 
     def _begin(self) -> asyncio.Future[tuple[bool, Exception | None]]:
         """Tell the master, if nobody does so already; what is to be waited for then.
@@ -156,8 +172,8 @@ class Registration:
         """
         if self._work is None:
             work = asyncio.get_running_loop().create_future()
-            task = self._node._spawn(
-                self._tell_all, work, name=f"{self._node.name} tells of {self.name}"
+            task = self._terms.supervisor.spawn(
+                self._tell_all, work, name=f"{self._terms.node_name} tells of {self.name}"
             )
             # Not in the task, which may be cancelled before it begins.
             task.add_done_callback(lambda _: self._work_ended(work))
@@ -176,17 +192,22 @@ class Registration:
     def _work_ended(self, work: asyncio.Future[tuple[bool, Exception | None]]) -> None:
         if not work.done():  # the node has ended
             self._work = None
-            work.set_result((self._is_wanted, ClosedError(f"node {self._node.name} is closed")))
+            work.set_result((self._is_wanted, self._closed()))
+
+    def _closed(self) -> ClosedError:
+        reason = self._terms.supervisor.reason
+        why = f" ({reason})" if reason is not None else ""
+        return ClosedError(f"node {self._terms.node_name} is closing, not open{why}")
 
     async def _tell(self, wanted: bool) -> Exception | None:
         """One request; gives what came in the way."""
-        node, before = self._node, self._is_at_master
+        terms, before = self._terms, self._is_at_master
         was_established = self._is_established
         self._is_established = was_established and wanted
         self._is_at_master, self._is_outdated = None, False
         failure: Exception | None = None
         try:
-            async with node._roles.slots:
+            async with terms.slots:
                 await (self._register() if wanted else self._unregister())
             self._is_at_master = wanted
         except MasterUnreachable as error:
@@ -203,11 +224,11 @@ class Registration:
             self._is_at_master = None if self._is_at_master else self._is_at_master
         elif wanted and failure is None:
             self._is_established = True
-            node._emit(RoleRegistered(self.kind, self.name))
+            terms.emit(RoleRegistered(self.kind, self.name))
         if was_established and not wanted:
-            node._emit(RoleUnregistered(self.kind, self.name))
+            terms.emit(RoleUnregistered(self.kind, self.name))
         return failure
 
     def _leave_if_idle(self) -> None:
         if not (self.users or self.is_behind or self._work):
-            self._node._roles.registrations.pop((self.kind, self.name), None)
+            self._terms.table.pop((self.kind, self.name), None)

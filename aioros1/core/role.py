@@ -1,81 +1,44 @@
-"""What all roles of a node have in common, and how one is opened."""
+"""What all roles of a node have in common."""
 
 from __future__ import annotations
 
 import asyncio
 import builtins
 from abc import ABC, abstractmethod
-from collections.abc import Coroutine, Generator
-from dataclasses import dataclass
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+from typing import Any, Self
 
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
+from aioros1.core.stats import RoleStats
 from aioros1.errors import ClosedError
 
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.node import Node
-
-__all__ = ["NodeStats", "Opening", "Role", "RoleStats"]
-
-
-@dataclass(slots=True)
-class RoleStats:
-    """Counters of one role since it was opened. They only ever grow."""
-
-    messages: int = 0
-    """Messages published or received, or calls made or answered."""
-
-    bytes: int = 0
-    """Bytes of those, counted once however many peers there are."""
-
-    dropped: int = 0
-    """Messages dropped from a full queue; a message for three peers counts for each."""
-
-    errors: int = 0
-    """Messages that could not be decoded, or calls that failed."""
-
-
-@dataclass(frozen=True, slots=True)
-class NodeStats:
-    """Sums over the open roles of a node."""
-
-    messages: int
-    bytes: int
-    dropped: int
-    errors: int
-    roles: int
-    connections: int
-    connections_refused: int
-    """Connections closed at once because there were too many: ``connections``,
-    ``xmlrpc_connections`` and ``connections_per_host`` of ``limits``."""
-    connections_forbidden: int
-    """Connections closed at once because their address is not in ``allow``."""
-    requests_delayed: int
-    """XML-RPC requests that had to wait for ``limits.requests_per_second``."""
+__all__ = ["Role"]
 
 
 class Role(ABC):
     """A publisher, subscriber, service provider, service caller or parameter subscriber.
 
-    A role is open from the moment its factory on :class:`Node` hands it out. It is
+    A role is open from the moment its factory on :class:`~aioros1.Node` hands it out. It is
     closed by :meth:`close`, by the end of the ``async with`` it was opened in, or with
     its node.
     """
 
     kind = "role"
+    """What it is, in a word or two."""
 
-    def __init__(self, node: Node, name: str) -> None:
-        self._node = node
+    def __init__(self, context: Context, name: str) -> None:
+        self._context = context
         self._name = name
         self._is_open = True
         self._closing: asyncio.Task[None] | None = None
         self.stats = RoleStats()
+        """What it has counted."""
 
     @property
-    def node(self) -> Node:
-        """The node the role belongs to."""
-        return self._node
+    def node(self) -> Any:
+        """The :class:`~aioros1.Node` that the role belongs to."""
+        return self._context.node
 
     @property
     def name(self) -> str:
@@ -84,7 +47,7 @@ class Role(ABC):
 
     @property
     def type(self) -> str:
-        """``pkg/Type``; ``*`` for a subscriber to any type, empty for a parameter."""
+        """``pkg/Type``; ``*`` for any type, empty for a parameter."""
         return ""
 
     @property
@@ -110,12 +73,14 @@ class Role(ABC):
     async def close(self) -> None:
         """Take the role back from the master and free what it holds.
 
-        May be called any number of times. What could not be said to the master, because
-        it is gone, is logged and not raised. When it is cancelled, closing goes on.
+        You may call it any number of times. What the master could not be told, because it
+        is gone, is logged and not raised. When the wait is cancelled, closing goes on.
         """
         if self._is_open:
             self._is_open = False
-            self._closing = self._node._spawn(self._finish, name=f"close {self.kind} {self.name}")
+            self._closing = self._context.spawn(
+                self._finish, name=f"close {self.kind} {self._name}"
+            )
         if self._closing is not None:
             await asyncio.wait({self._closing})
 
@@ -123,7 +88,7 @@ class Role(ABC):
         try:
             await self._close()
         finally:
-            self._node._roles.open.pop(self, None)
+            self._context.dismiss(self)
 
     @abstractmethod
     async def _close(self) -> None: ...
@@ -135,11 +100,12 @@ class Role(ABC):
     def _check_open(self) -> None:
         if not self._is_open:
             raise self._closed_error()
+        self._context.check_loop()
 
     def _closed_error(self) -> ClosedError:
-        reason = self._node.close_reason
+        reason = self._context.close_reason
         why = f": the node was closed ({reason})" if reason is not None else ""
-        return ClosedError(f"{self.kind} {self._name} of {self._node.name} is closed{why}")
+        return ClosedError(f"{self.kind} {self._name} of {self._context.name} is closed{why}")
 
     async def __aenter__(self) -> Self:
         return self
@@ -154,40 +120,5 @@ class Role(ABC):
 
     def __repr__(self) -> str:
         state = "open" if self._is_open else "closed"
-        return f"<{type(self).__name__} {self._name} [{self.type}] of {self._node.name}, {state}>"
-
-
-R = TypeVar("R", bound=Role)
-
-
-class Opening(Generic[R]):
-    """A role on its way: await it, or use it with ``async with``.
-
-    ::
-
-        pub = await node.advertise("chatter", String)    # closed by pub.close()
-        async with node.advertise("chatter", String) as pub:
-            ...                                          # closed at the end
-    """
-
-    __slots__ = ("_coroutine", "_role")
-
-    def __init__(self, coroutine: Coroutine[Any, Any, R]) -> None:
-        # The coroutine itself and not a function that makes it, so that Python warns
-        # of one that is never awaited.
-        self._coroutine = coroutine
-
-    def __await__(self) -> Generator[Any, None, R]:
-        return self._coroutine.__await__()
-
-    async def __aenter__(self) -> R:
-        self._role = await self._coroutine
-        return self._role
-
-    async def __aexit__(
-        self,
-        exc_type: type[BaseException] | None,
-        exc: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        await self._role.close()
+        kind = f" [{self.type}]" if self.type else ""
+        return f"<{type(self).__name__} {self._name}{kind} of {self._context.name}, {state}>"

@@ -3,38 +3,53 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 import warnings
 from collections.abc import Awaitable, Callable
-from typing import Any
+from typing import Any, Literal, Protocol
 
 from aioros1.errors import ClosedError
 
-__all__ = ["Supervisor"]
+__all__ = ["Life", "State", "Supervisor"]
+
+
+State = Literal["new", "starting", "open", "closing", "closed"]
+
+
+class Life(Protocol):
+    """What a node does when. Each part may count on the former having been called."""
+
+    async def begin(self) -> None:
+        """Come to be. The node can be used when this returns."""
+
+    async def finish(self) -> None:
+        """Tell others of the end, as far as they listen."""
+
+    async def free(self) -> None:
+        """Let go of all that is shared with others, whatever has become of it. This comes
+        also after a :meth:`begin` that has failed, or was cancelled half-way."""
+
+    def drop(self) -> None:
+        """Let go of the rest, without waiting for anybody. This always comes last."""
 
 
 class Supervisor:
-    """Runs ``begin``, then waits to be told to end, then runs ``finish``.
+    """Leads a node through its life, in one task, when it is told to begin and to end.
 
-    ``free`` and ``abort`` always come last, also after a ``begin`` that failed or was
-    cancelled half-way. Whoever asks for the end, and may be cancelled while waiting for
-    it, does not do it: this task does. All other tasks of the node are in its task group.
+    Whoever asks for the end, and may be cancelled while waiting for it, does not do it: this
+    task does. All other tasks of the node are in its task group. What goes wrong in them is
+    given to ``report``.
     """
 
-    def __init__(
-        self,
-        name: str,
-        begin: Callable[[], Awaitable[None]],
-        finish: Callable[[], Awaitable[None]],
-        free: Callable[[], Awaitable[None]],
-        abort: Callable[[], None],
-        report: Callable[[BaseException, str], None],
-    ) -> None:
+    def __init__(self, name: str, life: Life, report: Callable[[BaseException, str], None]) -> None:
         self._name = name
-        self._begin = begin
-        self._finish = finish
-        self._free = free
-        self._abort = abort
+        self._life = life
         self._report = report
+        self.state: State = "new"
+        """Where the node is in its life; the steps of that set it."""
+        self.loop: asyncio.AbstractEventLoop | None = None
+        """The event loop that the node lives in; None before it is started."""
+        self._thread = ""
         self._group: asyncio.TaskGroup | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
@@ -42,8 +57,10 @@ class Supervisor:
         """Why the node ends; None while nothing says that it should."""
 
     async def start(self) -> None:
-        """Return when ``begin`` has; raise what it raises."""
-        begun = asyncio.get_running_loop().create_future()
+        """Return when the node has begun; raise what it raises."""
+        self.loop = asyncio.get_running_loop()
+        self._thread = threading.current_thread().name
+        begun = self.loop.create_future()
         self._task = asyncio.create_task(self._run(begun), name=f"{self._name} supervisor")
         try:
             await asyncio.shield(begun)
@@ -88,6 +105,20 @@ class Supervisor:
             raise ClosedError(f"{self._name} is closed")
         return self._group.create_task(self._guarded(function, args, name), name=name)
 
+    def check_loop(self) -> None:
+        """Raise :class:`RuntimeError` in another thread or event loop than the node's."""
+        # It gives None where get_running_loop() raises.
+        running = asyncio._get_running_loop()
+        if running is self.loop or self.loop is None:
+            return
+        where = "without an event loop" if running is None else "in another event loop"
+        raise RuntimeError(
+            f"{self._name} was used {where}, in thread {threading.current_thread().name!r}; it "
+            f"belongs to the event loop of thread {self._thread!r}: hand the call over with "
+            "loop.call_soon_threadsafe() or asyncio.run_coroutine_threadsafe(), or use "
+            "NodeThread.call() and NodeThread.run()"
+        )
+
     async def _guarded(
         self, function: Callable[..., Awaitable[Any]], args: tuple[Any, ...], name: str
     ) -> None:
@@ -102,14 +133,14 @@ class Supervisor:
         try:
             async with asyncio.TaskGroup() as self._group:
                 try:
-                    await self._begin()
+                    await self._life.begin()
                     if not begun.done():
                         begun.set_result(None)
                     await self._end.wait()
-                    await self._finish()
+                    await self._life.finish()
                 finally:
                     self._group = None
-                    await self._free()
+                    await self._life.free()
                 raise _TheEndError
         except* _TheEndError:
             pass
@@ -123,7 +154,7 @@ class Supervisor:
         finally:
             forgotten = self.reason is None
             self.end("the event loop has ended")
-            self._abort()
+            self._life.drop()
             if forgotten:  # last, because a warning may be an exception
                 warnings.warn(f"{self._name} was never closed", ResourceWarning, stacklevel=1)
 

@@ -3,27 +3,18 @@
 from __future__ import annotations
 
 import logging
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
-if TYPE_CHECKING:
-    from aioros1.node import Node
-
-__all__ = ["Unseen", "logger_names", "loggers_of"]
+__all__ = ["SilentHandler", "topmost"]
 
 
-def logger_names(node: Node) -> list[str]:
-    """Of the node's own logger, and those that ``rosout`` of its options names."""
-    chosen = node.options.rosout
-    return [node.log.logger.name, *(() if isinstance(chosen, bool) else chosen)]
-
-
-def loggers_of(node: Node) -> list[logging.Logger]:
-    """Those loggers, without any that hands its records on to another of them."""
-    loggers = dict.fromkeys(map(logging.getLogger, logger_names(node)))
+def topmost(names: Iterable[str]) -> list[logging.Logger]:
+    """The loggers of these names, without any that hands its records on to another of them."""
+    loggers = dict.fromkeys(map(logging.getLogger, names))
     return [each for each in loggers if not _reaches(each, loggers)]
 
 
-class Unseen(logging.Handler):
+class SilentHandler(logging.Handler):
     """A handler whose work nobody sees who looks at a terminal.
 
     logging prints warnings on standard error as long as there is no handler at all. To have
@@ -36,7 +27,7 @@ class Unseen(logging.Handler):
         if last_resort is not None and record.levelno >= last_resort.level:
             handlers = _handlers(logging.getLogger(record.name))
             # Once, and not for each node that hears of it.
-            if handlers[:1] == [self] and all(isinstance(each, Unseen) for each in handlers):
+            if handlers[:1] == [self] and all(isinstance(each, SilentHandler) for each in handlers):
                 last_resort.handle(record)
 
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import sys
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, MutableMapping
+from collections.abc import Callable, Collection, Hashable, MutableMapping
 from types import FrameType
 from typing import Any
 
+from aioros1.log.file import log_to_file
 from aioros1.time import Duration
 
 __all__ = ["NodeLog", "SparseLog", "logger_name"]
@@ -36,9 +38,15 @@ class NodeLog(logging.LoggerAdapter[logging.Logger]):
     handlers.
     """
 
-    def __init__(self, node_name: str, now: Callable[[], int]) -> None:
+    def __init__(
+        self, node_name: str, now: Callable[[], int], others: Collection[str] = ()
+    ) -> None:
         self._fields = {"ros_node": node_name}
-        super().__init__(logging.getLogger(logger_name(node_name)), self._fields)
+        own = logger_name(node_name)
+        super().__init__(logging.getLogger(own), self._fields)
+        self.names = (own, *others)
+        """The names of the loggers that ``/rosout`` is made of: the node's own, and those
+        that the option ``rosout`` names."""
         self._now = now
         """Nanoseconds of some clock."""
         self._once = _Sites()
@@ -50,6 +58,16 @@ class NodeLog(logging.LoggerAdapter[logging.Logger]):
         """Add the name of the node to what the record has in addition."""
         kwargs["extra"] = {**self._fields, **(kwargs.get("extra") or {})}
         return msg, kwargs
+
+    def to_file(self, path: str) -> contextlib.AbstractContextManager[None]:
+        """While the block runs, append what goes to ``/rosout`` to a file as well.
+
+        Raises :class:`OSError` if it cannot be opened.
+        """
+        return log_to_file(self.names, path)
+
+    def __repr__(self) -> str:
+        return f"<NodeLog of {self._fields['ros_node']}, logger {self.logger.name}>"
 
     @property
     def once(self) -> SparseLog:

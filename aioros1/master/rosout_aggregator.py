@@ -41,17 +41,8 @@ class RosoutAggregator:
         """Return when the topics are registered and the relay runs."""
         await self._node.start()
         publisher = await self._node.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=1000)
-        # What one read of a connection brings may be more than any queue: the relay, which
-        # waits for nobody, takes all of it.
-        subscriber = await self._node.subscribe(
-            "/rosout", "rosgraph_msgs/Log", queue_size=1000, overflow="block", raw=True
-        )
-
-        async def relay() -> None:
-            async for message in subscriber:
-                publisher.publish_raw(message)
-
-        self._node._spawn(relay, name="rosout relay")
+        # Where they arrive: what one read of a connection brings may be more than any queue.
+        await self._node.subscribe("/rosout", "rosgraph_msgs/Log", publisher.publish_raw, raw=True)
 
     async def close(self) -> None:
         await self._node.close()

@@ -10,15 +10,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Awaitable, Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Awaitable, Callable, Iterable
 
+from aioros1.core.context import Context
+from aioros1.core.registration import Registration
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
 from aioros1.events import MasterLost, MasterRestarted
-
-if TYPE_CHECKING:
-    from aioros1.core.registration import Registration
-    from aioros1.node import Node
+from aioros1.node.own_address import OwnAddress
 
 __all__ = ["Heartbeat"]
 
@@ -26,8 +24,12 @@ __all__ = ["Heartbeat"]
 class Heartbeat:
     """Follows the identity of one node's master."""
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(
+        self, context: Context, own_address: OwnAddress, ask_time: Callable[[], Awaitable[None]]
+    ) -> None:
+        self._context = context
+        self._own_address = own_address
+        self._ask_time = ask_time  # which time the node is to go by
         self._identity: tuple[int, str] | None = None
         self._is_lost = False
         self._is_stale = False
@@ -60,21 +62,22 @@ class Heartbeat:
             await self._beat()
 
     async def _beat(self) -> None:
-        node = self._node
+        context = self._context
         try:
             identity = await self._ask()
         except (MasterError, ClosedError) as error:
             if not self._is_lost and not self._is_stopped:
                 self._is_lost = True
-                node.log.warning("lost the master at %s: %s", node.master_uri, error)
-                node._emit(MasterLost(node.master_uri, str(error)))
+                uri = context.master.uri
+                context.log.warning("lost the master at %s: %s", uri, error)
+                context.emit(MasterLost(uri, str(error)))
             return
         known, self._identity = self._identity, identity
         was_lost, self._is_lost = self._is_lost, False
         if self._is_stopped:
             return
         with contextlib.suppress(MasterError):  # the next time
-            await node._sim_time.ask()
+            await self._ask_time()
         await self._move()
         if identity == known and not was_lost and not self._is_stale:
             await self._settle()
@@ -84,11 +87,12 @@ class Heartbeat:
         self._is_stale = not await self._register_again()
         if known is None or self._is_stale:
             return
-        node.log.warning("registered again at the master at %s", node.master_uri)
-        node._emit(MasterRestarted(node.master_uri, identity[1]))
+        uri = context.master.uri
+        context.log.warning("registered again at the master at %s", uri)
+        context.emit(MasterRestarted(uri, identity[1]))
 
     async def _ask(self) -> tuple[int, str]:
-        master = self._node.master
+        master = self._context.master
         pid = await master.get_pid()
         try:
             run_id = str(await master.get_param("/run_id"))
@@ -100,18 +104,19 @@ class Heartbeat:
 
     async def _move(self) -> None:
         """Tell another address, if the one told is not this machine's any more."""
-        node = self._node
-        old, new = node._address.host, await node._address.successor()
+        context = self._context
+        old = context.address.known_host
+        new = await self._own_address.successor(old)
         if old is None or new is None:
             return
-        node.log.warning("the address %s is lost; others are told %s now", old, new)
+        context.log.warning("the address %s is lost; others are told %s now", old, new)
         # Not only renewed: the master would take the same name at another address for
         # another node, and tell whoever has the old address now to end.
         self._is_stale = True
         await self._all(registration.withdraw() for registration in self._registrations)
-        node._address.host = new
-        node._roles.lose_address(old)
-        node._xmlrpc.close_idle()
+        context.address.known_host = new
+        context.connections.abort_at(old)
+        context.xmlrpc.close_idle()
 
     async def _register_again(self) -> bool:
         """Register everything anew, all at once; whether the master took all of it."""
@@ -125,7 +130,7 @@ class Heartbeat:
 
     @property
     def _registrations(self) -> tuple[Registration, ...]:
-        return tuple(self._node._roles.registrations.values())
+        return self._context.registrations.all
 
     async def _all(self, telling: Iterable[Awaitable[None]]) -> bool:
         results = await asyncio.gather(*telling, return_exceptions=True)
@@ -133,5 +138,5 @@ class Heartbeat:
         for failure in failures:
             if not isinstance(failure, MasterError):
                 raise failure
-            self._node.log.warning("cannot register: %s", failure)
+            self._context.log.warning("cannot register: %s", failure)
         return not failures

@@ -33,6 +33,8 @@ class Identity:
     """What says so, as it was written: ``ROS_IP=10.0.0.2``."""
     remappings: Mapping[str, str]
     private_params: Mapping[str, Any]
+    log_file: str | None
+    """The file that ``__log:=`` names."""
 
     @property
     def name(self) -> str:
@@ -89,6 +91,7 @@ class Identity:
                 names.qualify(namespace, base_name),
             ),
             private_params=_private_params(arguments.params),
+            log_file=arguments.special.get("__log") or None,
         )
 
 

@@ -1,110 +1,51 @@
-"""The levels of ROS and of :mod:`logging`, and the services that tell and set them."""
+"""The services ``~get_loggers`` and ``~set_logger_level``, which rqt_logger_level calls."""
 
 from __future__ import annotations
 
 import contextlib
 import logging
-import threading
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from aioros1.core.context import Context
 from aioros1.errors import MasterError, RosError
-from aioros1.log.loggers import logger_names
+from aioros1.log.levels import LEVELS, LevelChanges, level_name
+from aioros1.services.provider import ServiceProviderOptions
+from aioros1.services.services import Services
 
-if TYPE_CHECKING:
-    from aioros1.node import Node
-
-__all__ = ["LEVELS", "LoggerLevels", "ros_level"]
-
-LEVELS = {
-    "debug": (logging.DEBUG, 1),
-    "info": (logging.INFO, 2),
-    "warn": (logging.WARNING, 4),
-    "error": (logging.ERROR, 8),
-    "fatal": (logging.CRITICAL, 16),
-}
-"""ROS's name of a level, Python's number and the number in ``rosgraph_msgs/Log``."""
+__all__ = ["LoggerServices"]
 
 _RETRY = 1.0
 
 
-def ros_level(number: int) -> int:
-    """The level of ROS for one of Python's, which may lie in between."""
-    for python, ros in reversed(LEVELS.values()):
-        if number >= python:
-            return ros
-    return 1
+class LoggerServices:
+    """Tells and sets the levels of the loggers that are a node's business.
 
-
-@dataclass(slots=True)
-class _Change:
-    """What has become of the level of one logger."""
-
-    before: int
-    after: int
-    wanted_by: set[LoggerLevels] = field(default_factory=set)
-
-
-# Of the process, as the loggers are: two of its nodes may have some in common.
-_changes: dict[logging.Logger, _Change] = {}
-_lock = threading.RLock()
-
-
-class LoggerLevels:
-    """The levels of the loggers that are a node's business: its own, those in ``rosout``
-    of its options, and all below these.
-
-    Who sets a level here, from far away or for ``/rosout``, does so while the node is open.
+    These are its own, those that the option ``rosout`` names, and all below these.
     """
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(self, context: Context, services: Services, levels: LevelChanges) -> None:
+        self._context = context
+        self._services = services
+        self._levels = levels
 
-    def set(self, logger: logging.Logger, level: int) -> None:
-        """Change a level until :meth:`restore`."""
-        with _lock:
-            change = _changes.setdefault(logger, _Change(logger.level, level))
-            change.wanted_by.add(self)
-            change.after = level
-            logger.setLevel(level)
-
-    def set_default(self, logger: logging.Logger, level: int) -> None:
-        """Do that for a logger without a level; one that another node has set keeps it."""
-        with _lock:
-            if logger in _changes:
-                _changes[logger].wanted_by.add(self)
-            elif logger.level == logging.NOTSET:
-                self.set(logger, level)
-
-    def restore(self) -> None:
-        """Undo the changes that no other node wants, but for what the application has
-        changed meanwhile."""
-        with _lock:
-            for logger, change in list(_changes.items()):
-                change.wanted_by.discard(self)
-                if not change.wanted_by:
-                    del _changes[logger]
-                    if logger.level == change.after:
-                        logger.setLevel(change.before)
-
-    async def serve(self) -> None:
-        """Provide ``~get_loggers`` and ``~set_logger_level`` as soon as the master lets us."""
-        services = [
+    async def run(self) -> None:
+        """Provide both as soon as the master lets us."""
+        offered = [
             ("~get_loggers", "roscpp/GetLoggers", self._get_loggers),
             ("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level),
         ]
-        for name, srv, handler in services:
+        for name, srv, handler in offered:
             while True:
                 with contextlib.suppress(MasterError):
-                    await self._node.advertise_service(name, srv, handler)
+                    await self._services.advertise(name, srv, handler, ServiceProviderOptions())
                     break
-                await self._node._pause(_RETRY)
+                await self._context.pause(_RETRY)
 
     def _is_ours(self, name: str) -> bool:
-        return any(name == top or name.startswith(f"{top}.") for top in logger_names(self._node))
+        return any(name == top or name.startswith(f"{top}.") for top in self._context.log.names)
 
     def _get_loggers(self, request: Any) -> dict[str, Any]:
-        tops = [logging.getLogger(name) for name in logger_names(self._node)]
+        tops = [logging.getLogger(name) for name in self._context.log.names]
         # Logging keeps placeholders for names that stand only within longer ones.
         others = [
             logger
@@ -113,7 +54,7 @@ class LoggerLevels:
         ]
         return {
             "loggers": [
-                {"name": logger.name, "level": _level_name(logger.getEffectiveLevel())}
+                {"name": logger.name, "level": level_name(logger.getEffectiveLevel())}
                 for logger in dict.fromkeys([*tops, *others])
             ]
         }
@@ -124,13 +65,8 @@ class LoggerLevels:
             raise RosError(f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}")
         # One that does not exist yet is made, as by rospy and roscpp: its user may come later.
         if not self._is_ours(request.logger):
-            names = ", ".join(logger_names(self._node))
+            names = ", ".join(self._context.log.names)
             raise RosError(
                 f"unknown logger {request.logger!r}, expected one of {names}, or one below"
             )
-        self.set(logging.getLogger(request.logger), LEVELS[level][0])
-
-
-def _level_name(number: int) -> str:
-    level = ros_level(number)
-    return next(name for name, (_, ros) in LEVELS.items() if ros == level)
+        self._levels.set(logging.getLogger(request.logger), LEVELS[level][0])

@@ -1,39 +1,45 @@
-"""The node: what a program is in a ROS graph, and where all its roles come from."""
+"""The node: what a program is in a ROS graph, and what it is made of."""
 
 from __future__ import annotations
 
 import asyncio
 import math
 import os
-from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Collection, Coroutine, Mapping, Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
-from aioros1 import names
 from aioros1.clock.clock import Clock
 from aioros1.clock.rate import Rate, period_of
 from aioros1.clock.timer import Timer
-from aioros1.core.role import NodeStats, Role
+from aioros1.core.address import Address
+from aioros1.core.context import Context
+from aioros1.core.registration import Terms
+from aioros1.core.registrations import AT_ONCE, Registrations
+from aioros1.core.role import Role
+from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
-from aioros1.errors import ClosedError, MasterUnreachable
-from aioros1.events import Broadcast, Event, EventStream
+from aioros1.core.user_errors import UserErrors
+from aioros1.errors import ClosedError
+from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
 from aioros1.idl import MessageStore, default_store
+from aioros1.log.levels import LevelChanges
 from aioros1.log.node_log import NodeLog
 from aioros1.net.allow import AllowList
-from aioros1.net.hosts import uri_host
 from aioros1.node.acceptor import Acceptor
+from aioros1.node.closing import close_members
 from aioros1.node.heartbeat import Heartbeat
 from aioros1.node.identity import Identity
-from aioros1.node.logger_services import LoggerLevels
-from aioros1.node.node_roles import Roles
+from aioros1.node.introduction import Introduction
+from aioros1.node.logger_services import LoggerServices
 from aioros1.node.own_address import OwnAddress
-from aioros1.node.param_methods import ParamCalls
+from aioros1.node.param_methods import ParamMethods
 from aioros1.node.rosout import Rosout
-from aioros1.node.service_methods import ServiceCalls
+from aioros1.node.service_methods import ServiceMethods
 from aioros1.node.sim_time import SimTime
 from aioros1.node.slave_api import SlaveApi
-from aioros1.node.topic_methods import TopicCalls
+from aioros1.node.topic_methods import TopicMethods
 from aioros1.options import (
     LOCAL_TRANSPORTS,
     Limits,
@@ -42,7 +48,10 @@ from aioros1.options import (
     OnError,
     Timeouts,
 )
+from aioros1.params.params import Params
+from aioros1.services.services import Services
 from aioros1.time import Duration, Time
+from aioros1.topics.topics import Topics
 from aioros1.waiting import deadline
 from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.master_proxy import MasterProxy
@@ -51,12 +60,11 @@ from aioros1.xmlrpc.server import XmlRpcServer
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
-    from aioros1.node.statistics import Statistics
 
 __all__ = ["Node"]
 
 
-class Node(TopicCalls, ServiceCalls, ParamCalls):
+class Node(TopicMethods, ServiceMethods, ParamMethods):
     """A node of a ROS graph, in the event loop it is started in.
 
     ::
@@ -64,7 +72,7 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         async with aioros1.Node("demo") as node:
             pub = await node.advertise("chatter", String)
 
-    ``name`` is a base name without slashes; with ``anonymous`` it is made unique.
+    ``name`` is a base name without slashes; ``anonymous`` makes it unique.
     ``namespace``, ``master_uri`` and ``host`` default to ``ROS_NAMESPACE``,
     ``ROS_MASTER_URI`` and ``ROS_HOSTNAME`` or ``ROS_IP``. ``host`` is what others are
     told to connect to; without any of these it is the address of this machine that
@@ -80,13 +88,16 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     loggers (``rosout=["myapp"]``) are published in addition, with all below them, at the
     levels they have. ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
     ``use_sim_time`` None does what the parameter ``/use_sim_time`` says, at the start and with
-    each heartbeat. ``heartbeat`` is how often, in seconds, the master is looked after, None for
-    never. ``on_error``
-    says what becomes of an exception in a timer's callback: ``"raise"`` closes the node
-    and raises it where the node is used, ``"log"`` logs it, a function is called with it.
-    ``local_transports`` may name ``"intraprocess"`` and ``"unix"``: topics then go past TCP
-    between nodes of this library that are in one event loop, or on one Linux host, if both
-    sides name it.
+    each heartbeat. ``heartbeat`` is how often, in seconds, the node looks after the master,
+    None for never. ``on_error`` says what becomes of an exception in a callback of yours:
+    ``"raise"`` closes the node and raises it where the node is used, ``"log"`` logs it, a
+    function is called with it. ``local_transports`` may name ``"intraprocess"`` and
+    ``"unix"``: topics then go past TCP between nodes of this library that are in one event
+    loop, or on one Linux host, if both sides name it.
+
+    A node belongs to its event loop: use it, and its roles, there and nowhere else. Other
+    threads hand their calls over (:class:`~aioros1.contrib.threads.NodeThread` does that for
+    you); a call that would come from elsewhere raises :class:`RuntimeError`.
 
     The constructor does no I/O. Raises :class:`~aioros1.InvalidNameError`,
     :class:`ValueError` and :class:`TypeError`, which name the option.
@@ -116,14 +127,13 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         on_error: OnError = "raise",
         local_transports: Collection[LocalTransport] = LOCAL_TRANSPORTS,
     ) -> None:
-        super().__init__()
-        self._allow = AllowList(allow)
+        allowed = AllowList(allow)
         self.options = NodeOptions(
             namespace=namespace,
             master_uri=master_uri,
             host=host,
             bind=bind,
-            allow=self._allow.networks,
+            allow=allowed.networks,
             xmlrpc_port=xmlrpc_port,
             tcpros_port=tcpros_port,
             argv=None if argv is None else tuple(argv),
@@ -138,52 +148,86 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
             on_error=on_error,
             local_transports=local_transports,
         )
-        self.timeouts = timeouts
-        self.limits = limits
+        """What the node was made with."""
         if not isinstance(store, MessageStore | None):
             raise TypeError(f"store must be a MessageStore or None, got {store!r}")
-        self.store = store if store is not None else default_store()
-        self.peer_definitions = MessageStore(parent=self.store)
-        """Definitions that publishers sent: a store of their own, so that what a peer
-        says is never found by who asks for a type by name."""
         identity = Identity.of(name, argv or (), namespace, master_uri, host, remap, anonymous)
-        self.base_name = identity.base_name
-        self.namespace = identity.namespace
         self.name = identity.name
+        """The full name."""
+        self.base_name = identity.base_name
+        """The name without the namespace."""
+        self.namespace = identity.namespace
+        """The namespace, which ends with no slash unless it is ``/``."""
         self.master_uri = identity.master_uri
-        self._address = OwnAddress(
-            identity.host, bind, identity.master_uri, words=identity.host_words
-        )
-        self._remappings = identity.remappings
-        self._private_params = identity.private_params
-        self._clock = Clock()
-        self.log = NodeLog(self.name, self._clock.steady)
-        self._logger_levels = LoggerLevels(self)
-        self.graph = Graph(self)
+        """The URI of the master."""
+        self.log_file = identity.log_file
+        """The file that the word ``__log:=`` of ``argv`` names; None if there is none."""
 
-        self._xmlrpc = XmlRpcClient(timeouts=timeouts, limits=limits)
-        self.master = MasterProxy(self._xmlrpc, self.master_uri, self.name)
-        # Who waits for a registration has a limit of time; the request has none.
-        self._registrar = MasterProxy(self._xmlrpc, self.master_uri, self.name, timeout=math.inf)
-        self._server = XmlRpcServer(SlaveApi(self).methods, limits=limits, allow=self._allow)
-        self._acceptor = Acceptor(self)
-        self._heartbeat = Heartbeat(self)
-        self._events: Broadcast[Event] = Broadcast()
-        self._supervisor = Supervisor(
-            f"node {self.name}",
-            *(self._begin, self._finish, self._free, self._drop),
-            self._report,
+        # What all parts are given.
+        supervisor = Supervisor(f"node {self.name}", _Life(self), self._report)
+        events: Broadcast[Event] = Broadcast()
+        clock = Clock(lambda before, now: events.publish(_jump(before, now)))
+        self.log = NodeLog(self.name, clock.steady, () if isinstance(rosout, bool) else rosout)
+        """A :class:`logging.LoggerAdapter`, whose records go to ``/rosout``."""
+        self.store = store if store is not None else default_store()
+        """Resolves the names of types."""
+        xmlrpc = XmlRpcClient(timeouts=timeouts, limits=limits)
+        self.master = MasterProxy(xmlrpc, self.master_uri, self.name)
+        """The master, as it is called."""
+        own_address = OwnAddress(identity.host, bind, self.master_uri, words=identity.host_words)
+        self._supervisor = supervisor
+        self._events = events
+        self._user_errors = UserErrors(on_error, self.log, supervisor.end)
+        self._context = context = Context(
+            node=self,
+            name=self.name,
+            namespace=self.namespace,
+            remappings=identity.remappings,
+            options=self.options,
+            log=self.log,
+            clock=clock,
+            store=self.store,
+            peer_definitions=MessageStore(parent=self.store),
+            events=events,
+            address=Address(self.name, own_address.given),
+            supervisor=supervisor,
+            user_errors=self._user_errors,
+            xmlrpc=xmlrpc,
+            master=self.master,
+            registrar=MasterProxy(xmlrpc, self.master_uri, self.name, timeout=math.inf),
+            registrations=Registrations(
+                Terms(
+                    node_name=self.name,
+                    master_uri=self.master_uri,
+                    patience=timeouts.xmlrpc,
+                    slots=asyncio.Semaphore(AT_ONCE),
+                    supervisor=supervisor,
+                    emit=events.publish,
+                )
+            ),
         )
-        self._state = "new"
-        self._close_timeout = timeouts.close
-        self._failure: Exception | None = None
-        self._user: asyncio.Task[Any] | None = None
-        self._user_cancelled = False
+
+        # The parts.
+        self._acceptor = Acceptor(context, allowed)
+        self._topics = Topics(context, self._acceptor.local)
+        self._services = Services(context)
+        self._params = Params(context)
+        self.graph = Graph(context)
+        """What there is in the graph."""
+        sim_time = SimTime(context, self._topics, self._params)
+        self._heartbeat = Heartbeat(context, own_address, sim_time.ask)
+        self._introduction = Introduction(
+            context, self._topics, self._params, sim_time, identity.private_params
+        )
+        slave_api = SlaveApi(
+            *(context, self._topics, self._services, self._params),
+            *(self._acceptor.local, self._shut_down),
+        )
+        self._server = XmlRpcServer(slave_api.methods, limits=limits, allow=allowed)
+        self._own_address = own_address
+        self._levels = LevelChanges()
         self._rosout: Rosout | None = None
-        self._statistics: Statistics | None = None  # once it is published
-
-        self._roles = Roles(self)
-        self._sim_time = SimTime(self)
+        self._close_timeout = timeouts.close
 
     # life
 
@@ -191,29 +235,31 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         """Listen, and greet the master if it is there. ``async with node`` does this.
 
         The master need not be there: see :meth:`wait_for_master`. Raises
-        :class:`OSError` when an address or port is not to be had, :class:`RuntimeError`
+        :class:`OSError` when an address or port cannot be had, :class:`RuntimeError`
         when the node was started before.
         """
-        if self._state != "new":
+        if self._supervisor.state != "new":
             raise RuntimeError(f"node {self.name} was started before; make a new Node")
-        self._state = "starting"
+        self._supervisor.state = "starting"
         await self._supervisor.start()
         return self
 
     async def close(self, timeout: float | None = None) -> None:
         """Close all roles, tell the master, free everything.
 
-        May be called any number of times, also at the same time. Others are given
+        You may call it any number of times, also at the same time. Others are given
         ``timeout`` seconds (``timeouts.close`` by default) for all of it; then what is
         left is dropped, so that nothing is held afterwards whatever they do.
         """
-        if self._state == "new":
-            self._state = "closed"
+        supervisor = self._supervisor
+        if supervisor.state == "new":
+            supervisor.state = "closed"
             return
+        supervisor.check_loop()
         if timeout is not None:
             self._close_timeout = timeout
-        self._supervisor.end("closed")
-        await self._supervisor.wait()
+        supervisor.end("closed")
+        await supervisor.wait()
 
     def abort(self) -> None:
         """Drop everything at once, without a word to the master or to peers."""
@@ -227,13 +273,13 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         Raises the exception that closed it, if one did (``on_error="raise"``).
         """
         await self._supervisor.wait()
-        if self._failure is not None:
-            raise self._failure
+        if self._user_errors.failure is not None:
+            raise self._user_errors.failure
         return self.close_reason or ""
 
     async def __aenter__(self) -> Self:
         await self.start()
-        self._user = asyncio.current_task()
+        self._user_errors.enter_block()
         return self
 
     async def __aexit__(
@@ -242,30 +288,28 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         exc: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        user, self._user = self._user, None
-        # As asyncio.timeout does: the cancellation was ours and ends here, unless
-        # somebody else has cancelled too.
-        ours = self._user_cancelled and user is not None and user.uncancel() <= 0
+        was_cancelled_by_us = self._user_errors.leave_block()
         try:
             await self.close()
         except asyncio.CancelledError:
-            if not ours:
+            if not was_cancelled_by_us:
                 raise
             await self.close()  # the cancellation had not been delivered yet
-        if self._failure is not None and (exc is None or ours):
-            raise self._failure
+        failure = self._user_errors.failure
+        if failure is not None and (exc is None or was_cancelled_by_us):
+            raise failure
 
     # what it is
 
     @property
     def state(self) -> str:
         """``new``, ``starting``, ``open``, ``closing`` or ``closed``."""
-        return self._state
+        return self._supervisor.state
 
     @property
     def is_open(self) -> bool:
         """Whether the node can be used."""
-        return self._state == "open"
+        return self._context.is_open
 
     @property
     def close_reason(self) -> str | None:
@@ -273,26 +317,37 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         return self._supervisor.reason
 
     @property
+    def timeouts(self) -> Timeouts:
+        """How long the node waits for others."""
+        return self.options.timeouts
+
+    @property
+    def limits(self) -> Limits:
+        """How much the node accepts from others."""
+        return self.options.limits
+
+    @property
     def host(self) -> str:
-        """What others are told to connect to."""
-        if self._address.host is None:
-            raise RuntimeError(f"node {self.name} has no address before it is started")
-        return self._address.host
+        """What others are told to connect to.
+
+        Raises :class:`RuntimeError` before the node is started, if nothing says it.
+        """
+        return self._context.address.host
 
     @property
     def uri(self) -> str:
         """The URI of the slave API."""
-        return f"http://{uri_host(self.host)}:{self._server.port}/"
+        return self._context.address.uri
 
     @property
     def tcpros_address(self) -> tuple[str, int]:
         """Host and port for topics and services."""
-        return self.host, self._acceptor.port
+        return self._context.address.tcpros
 
     @property
     def tcpros_uri(self) -> str:
         """The same for services, as the master is told."""
-        return f"rosrpc://{uri_host(self.host)}:{self._acceptor.port}"
+        return self._context.address.tcpros_uri
 
     @property
     def pid(self) -> int:
@@ -307,17 +362,19 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
         """All connections, of topics, services and callers."""
-        return self._roles.connections
+        return self._context.connections.infos
 
     @property
     def roles(self) -> tuple[Role, ...]:
         """All open roles, in the order they were opened."""
-        return tuple(role for role in self._roles.open if role.is_open)
+        members = self._context.members
+        return tuple(each for each in members if isinstance(each, Role) and each.is_open)
 
     @property
     def stats(self) -> NodeStats:
         """Sums of what the open roles have counted."""
-        stats = [role.stats for role in self._roles.open]
+        members = self._context.members
+        stats = [role.stats for role in members if isinstance(role, Role)]
         doors = (self._acceptor.admission, self._server.admission)
         return NodeStats(
             messages=sum(each.messages for each in stats),
@@ -336,18 +393,51 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
 
         Remappings are applied. Raises :class:`~aioros1.InvalidNameError`.
         """
-        return names.resolve_name(name, self.namespace, self.name, self._remappings)
+        return self._context.resolve_name(name)
 
     def events(self) -> EventStream[Event]:
         """Iterate over what happens to the node from now on; ends with the node."""
         return self._events.subscribe()
 
+    # tasks
+
+    def create_task(
+        self, coro: Coroutine[Any, Any, object], *, name: str | None = None
+    ) -> asyncio.Task[None]:
+        """Run a coroutine in a task of the node, which is cancelled when the node closes.
+
+        An exception of it is treated as ``on_error`` says, and does not come out of the
+        task, whose result is None. Raises :class:`~aioros1.ClosedError`.
+        """
+        what = name if name is not None else f"task of node {self.name}"
+        try:
+            self._context.check_open()
+            return self._context.spawn(self._run_for_user, coro, what, name=what)
+        except BaseException:
+            coro.close()  # Python warns of one that is never awaited
+            raise
+
+    async def _run_for_user(self, coro: Coroutine[Any, Any, object], what: str) -> None:
+        try:
+            await coro
+        except Exception as error:
+            if not (isinstance(error, ClosedError) and not self.is_open):
+                self._user_errors.handle(error, what)
+
+    def handle_error(self, error: Exception, what: str) -> None:
+        """Treat an exception that ``what`` has raised as ``on_error`` says.
+
+        For code that calls your callbacks where nobody awaits them.
+        """
+        self._user_errors.handle(error, what)
+
     # the graph
 
     async def peer(self, name: str) -> NodeProxy:
         """Another node, by name. Raises :class:`~aioros1.MasterError` if there is none."""
-        name = self.resolve_name(name)
-        return NodeProxy(self._xmlrpc, await self.master.lookup_node(name), self.name, name)
+        context = self._context
+        name = context.resolve_name(name)
+        return NodeProxy(context.xmlrpc, await self.master.lookup_node(name), self.name, name)
 
     async def wait_for_master(self, *, timeout: float | None = None) -> None:
         """Wait until the master answers.
@@ -357,24 +447,29 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         async with deadline(timeout, f"no master at {self.master_uri}") as limit:
             while not await self._heartbeat.greet():
                 limit.why = self._heartbeat.refusal
-                await self._pause(0.1)
+                await self._context.pause(0.1)
 
     # time
 
     def now(self) -> Time:
-        """The time: of ``/clock`` if that is followed, else the wall clock's."""
-        return Time.from_nsec(self._clock.nanoseconds())
+        """The time: of ``/clock`` if the node follows that, else the wall clock's."""
+        return Time.from_nsec(self._context.clock.nanoseconds())
+
+    @property
+    def uses_sim_time(self) -> bool:
+        """Whether the time is that of ``/clock``."""
+        return self._context.clock.is_simulated
 
     async def sleep(self, duration: float | Duration) -> None:
         """Wait for seconds of this node's time. Raises :class:`~aioros1.ClosedError`."""
-        await self._clock.sleep(duration)
+        await self._context.clock.sleep(duration)
 
     def rate(self, hz: float) -> Rate:
         """Iterate ``hz`` times a second of this node's time; ends with the node.
 
         Raises :class:`ValueError` for a rate that is not positive.
         """
-        return Rate(self._clock, period_of(hz))
+        return Rate(self._context.clock, period_of(hz))
 
     def timer(
         self,
@@ -385,49 +480,37 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
     ) -> Timer:
         """Call a function, or a coroutine function, every ``period`` seconds with the time.
 
-        It ends with the node, or by :meth:`Timer.cancel`.
+        It ends with the node, or by :meth:`aioros1.Timer.cancel`. What it raises is treated
+        as ``on_error`` says.
         """
-        self._check_open()
-        return Timer(self, period, callback, oneshot=oneshot)
+        context = self._context
+        context.check_open()
+        return Timer(
+            *(context.clock, context.spawn, context.user_error, period, callback), oneshot=oneshot
+        )
+
+    @property
+    def next_wakeup(self) -> Time | None:
+        """The earliest moment of simulated time that somebody waits for here; None if nobody
+        does. For whoever drives ``/clock`` in steps."""
+        moment = self._context.clock.next_awaited
+        return None if moment is None else Time.from_nsec(moment)
+
+    async def wait_for_time(self, time: Time, *, timeout: float | None = None) -> None:
+        """Wait until the simulated time is exactly ``time``, a step of ``/clock``.
+
+        For whoever drives that. Raises :class:`TimeoutError` after ``timeout`` seconds, and
+        :class:`~aioros1.ClosedError`.
+        """
+        await self._context.clock.wait_until_shows(time.to_nsec(), timeout=timeout)
 
     def __repr__(self) -> str:
-        return f"<Node {self.name} at {self.master_uri}, {self._state}>"
+        return f"<Node {self.name} at {self.master_uri}, {self.state}>"
 
     # inside
 
-    def _check_open(self) -> None:
-        if self._state != "open":
-            why = f" ({self.close_reason})" if self.close_reason is not None else ""
-            raise ClosedError(f"node {self.name} is {self._state}, not open{why}")
-
-    def _spawn(
-        self, function: Callable[..., Awaitable[Any]], *args: Any, name: str
-    ) -> asyncio.Task[None]:
-        return self._supervisor.spawn(function, *args, name=name)
-
-    async def _pause(self, seconds: float) -> None:
-        await self._supervisor.pause(seconds)
-
-    def _emit(self, event: Event) -> None:
-        self._events.publish(event)
-
     def _report(self, error: BaseException, what: str) -> None:
-        """An error of our own, or one that nobody foresaw."""
-        self.log.error("%s failed: %r", what, error, exc_info=error)
-
-    def _user_error(self, error: Exception, what: str) -> None:
-        """An exception of the user's code, where there is nobody to raise it to."""
-        policy = self.options.on_error
-        if callable(policy):
-            policy(error)
-        elif policy == "log":
-            self.log.error("%s failed", what, exc_info=error)
-        elif self._failure is None:
-            self._failure = error
-            self._supervisor.end(f"{what} failed: {error!r}")
-            if self._user is not None:
-                self._user_cancelled = True
-                self._user.cancel()
+        self._context.report(error, what)
 
     def _shut_down(self, reason: str) -> None:
         """The master, or anybody else, wants the node to end."""
@@ -435,54 +518,39 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         self._supervisor.end(reason)
 
     async def _begin(self) -> None:
-        address = await self._address.find()
-        await self._acceptor.start(address, self.options.tcpros_port)
-        await self._acceptor.local.start()
-        await self._server.start(address, self.options.xmlrpc_port)
+        context, options = self._context, self.options
+        address = context.address
+        address.known_host, listen = await self._own_address.find()
+        address.tcpros_port = await self._acceptor.start(
+            listen, options.tcpros_port, topics=self._topics.serve, services=self._services.serve
+        )
+        await self._server.start(listen, options.xmlrpc_port)
+        address.xmlrpc_port = self._server.port
         master_is_there = await self._heartbeat.greet()
-        self._state = "open"
-        if self.options.use_sim_time:
-            self._clock.simulate()
-        if not (master_is_there and await self._introduced()):
-            self._spawn(self._introduce_later, name=f"{self.name} introduction")
-        if self._address.is_given:
-            self._spawn(self._check_address, name=f"{self.name} address")
-        if self.options.rosout is not False:
-            self._rosout = Rosout(self)
-            self._spawn(self._rosout.run, name=f"{self.name} rosout")
-        if self.options.logger_services:
-            self._spawn(self._logger_levels.serve, name=f"{self.name} logger services")
-        if self.options.heartbeat is not None:
-            self._spawn(self._heartbeat.run, self.options.heartbeat, name=f"{self.name} heartbeat")
+        self._supervisor.state = "open"
+        if options.use_sim_time:
+            context.clock.simulate()
+        if not (master_is_there and await self._introduction.was_made()):
+            context.spawn(self._introduce_later, name=f"{self.name} introduction")
+        if self._own_address.is_given:
+            context.spawn(self._check_address, name=f"{self.name} address")
+        if options.rosout is not False:
+            self._rosout = Rosout(context, self._topics, self._params, self._levels)
+            context.spawn(self._rosout.run, name=f"{self.name} rosout")
+        if options.logger_services:
+            services = LoggerServices(context, self._services, self._levels)
+            context.spawn(services.run, name=f"{self.name} logger services")
+        if options.heartbeat is not None:
+            context.spawn(self._heartbeat.run, options.heartbeat, name=f"{self.name} heartbeat")
 
     async def _check_address(self) -> None:
         """Warn of an address that others can hardly use. Nobody waits for the look-up."""
-        if (doubt := await self._address.doubt()) is not None:
+        if (doubt := await self._own_address.doubt()) is not None:
             self.log.warning("%s", doubt)
-
-    async def _introduce(self) -> None:
-        """Say, and ask, what can only be once there is a master."""
-        for key, value in self._private_params.items():
-            await self.set_param(f"~{key}", value)
-        has_statistics = await self.get_param("/enable_statistics", False) is True
-        await self._sim_time.ask()
-        # All that may fail, and is then done again, is behind us.
-        if has_statistics:
-            from aioros1.node import statistics  # here, as hardly anybody wants it
-
-            self._spawn(statistics.Statistics(self).run, name=f"{self.name} statistics")
-
-    async def _introduced(self) -> bool:
-        """Whether the master was there long enough for that."""
-        try:
-            await self._introduce()
-        except MasterUnreachable:
-            return False
-        return True
 
     async def _introduce_later(self) -> None:
         await self.wait_for_master()
-        while not await self._introduced():
+        while not await self._introduction.was_made():
             await self.wait_for_master()
 
     async def _finish(self) -> None:
@@ -490,25 +558,48 @@ class Node(TopicCalls, ServiceCalls, ParamCalls):
         begin = loop.time()
         if self._rosout is not None:
             await self._rosout.settle(self._close_timeout)
-        self._state = "closing"
+        self._supervisor.state = "closing"
         self._heartbeat.stop()
-        self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))
-        await self._roles.close(max(0, self._close_timeout - (loop.time() - begin)))
+        self._end_time()
+        left = max(0, self._close_timeout - (loop.time() - begin))
+        await close_members(self._context, self._rosout, left)
 
     async def _free(self) -> None:
-        """Let go of all that is shared with others, whatever has become of it."""
-        self._state = "closing"
+        self._supervisor.state = "closing"
         self._acceptor.close()
         await self._server.close()
-        await self._xmlrpc.close()
+        await self._context.xmlrpc.close()
 
     def _drop(self) -> None:
-        """Let go of the rest, without waiting for anybody."""
-        self._state = "closed"
+        self._supervisor.state = "closed"
         if self._rosout is not None:
             self._rosout.detach()
-        self._logger_levels.restore()
+        self._levels.restore()
         self._acceptor.close()
-        self._roles.abort()
-        self._clock.fail(ClosedError(f"node {self.name} is closed ({self.close_reason})"))
+        self._topics.abort()
+        self._services.abort()
+        members = self._context.members
+        for abort in tuple(members.values()):
+            abort()
+        members.clear()
+        self._end_time()
         self._events.close()
+
+    def _end_time(self) -> None:
+        """No more time comes: whoever waits for it goes on."""
+        why = ClosedError(f"node {self.name} is closed ({self.close_reason})")
+        self._context.clock.fail(why)
+
+
+class _Life:
+    """The steps of a node's life, which its supervisor takes."""
+
+    def __init__(self, node: Node) -> None:
+        self.begin = node._begin
+        self.finish = node._finish
+        self.free = node._free
+        self.drop = node._drop
+
+
+def _jump(before: int, now: int) -> ClockJumped:
+    return ClockJumped(Time.from_nsec(before), Time.from_nsec(now))

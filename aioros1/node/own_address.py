@@ -35,21 +35,26 @@ class OwnAddress:
             given = bind
         if given is None and is_loopback(self._master):
             given = self._master
-        self.is_given = given is not None
-        """Whether something says it, and it has not to be found."""
-        self.host = given
-        """What others are told; None before :meth:`find`."""
+        self.given = given
+        """What others are told, if something says it; None if it is to be found."""
 
-    async def find(self) -> str:
-        """Look for an address that nobody has given; return where to listen."""
-        if self.host is None:
-            self.host = await self._facing() or "localhost"
+    @property
+    def is_given(self) -> bool:
+        """Whether something says it, and it has not to be found."""
+        return self.given is not None
+
+    async def find(self) -> tuple[str, str]:
+        """Look for an address that nobody has given.
+
+        Returns what to tell others, and where to listen.
+        """
+        told = self.given if self.given is not None else await self._facing() or "localhost"
         if self._bind is not None:
-            return self._bind
+            return told, self._bind
         if self.is_given:
-            return bind_address_for(self.host)
+            return told, bind_address_for(told)
         # Also when there is no network yet, and therefore nothing to tell but localhost.
-        return every_interface(self.host)
+        return told, every_interface(told)
 
     async def doubt(self) -> str | None:
         """What seems to be wrong with an address that was given, if anything does.
@@ -57,8 +62,8 @@ class OwnAddress:
         A name is looked up, which takes as long as it takes. It is no error: this machine
         may have a name that only others know, and an address that only a router knows.
         """
-        host = self.host
-        if not self.is_given or host is None or is_loopback(host):
+        host = self.given
+        if host is None or is_loopback(host):
             return None
         try:
             addresses = [address for _, address in await resolve(host)]
@@ -78,12 +83,12 @@ class OwnAddress:
             "expected a name or an address by which they reach this machine"
         )
 
-    async def successor(self) -> str | None:
-        """What to tell now, if the address that was told is this machine's no more.
+    async def successor(self, told: str | None) -> str | None:
+        """What to tell now, if the address that was ``told`` is this machine's no more.
 
         As long as it is, others can go on using it, whatever faces the master now.
         """
-        if self.is_given or self.host is None or is_local(self.host):
+        if self.is_given or told is None or is_local(told):
             return None
         return await self._facing()
 

@@ -6,17 +6,18 @@ import asyncio
 import contextlib
 import logging
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
-from aioros1.log.loggers import Unseen, loggers_of
-from aioros1.node.logger_services import ros_level
+from aioros1.log.levels import LevelChanges, ros_level
+from aioros1.log.loggers import SilentHandler, topmost
+from aioros1.params.params import Params
 from aioros1.time import Time
+from aioros1.topics.options import PublisherOptions
+from aioros1.topics.publisher import Publisher
+from aioros1.topics.topics import Topics
 from aioros1.waiting import Waiters
-
-if TYPE_CHECKING:
-    from aioros1.node import Node
-    from aioros1.topics.publisher import Publisher
 
 __all__ = ["Rosout"]
 
@@ -30,7 +31,7 @@ _FIRST_SUBSCRIBERS = 1.0
 """Seconds that the first records wait for those who want them."""
 
 
-class Rosout(Unseen):
+class Rosout(SilentHandler):
     """Publishes what the logger of a node is given, and the loggers that it was told.
 
     What is logged in the loop of the node is published at once, what other threads log as
@@ -38,9 +39,13 @@ class Rosout(Unseen):
     has its subscribers; a node does not wait for that with its start.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(
+        self, context: Context, topics: Topics, params: Params, levels: LevelChanges
+    ) -> None:
         super().__init__()
-        self._node = node
+        self._context = context
+        self._topics = topics
+        self._params = params
         self._loop = asyncio.get_running_loop()
         self._publisher: Publisher[Any] | None = None
         self._waiting: deque[dict[str, Any]] = deque(maxlen=_WAITING)
@@ -52,8 +57,8 @@ class Rosout(Unseen):
         """Whether somebody may be about to hear the first records."""
         self._progress = Waiters()
         # As rosout has it; what else the application shows is up to its handlers.
-        node._logger_levels.set_default(node.log.logger, logging.INFO)
-        self._loggers = loggers_of(node)
+        levels.set_default(context.log.logger, logging.INFO)
+        self._loggers = topmost(context.log.names)
         for logger in self._loggers:
             logger.addHandler(self)
 
@@ -68,20 +73,21 @@ class Rosout(Unseen):
 
     async def run(self) -> None:
         """Advertise ``/rosout`` as soon as the master lets us, and publish what waits."""
-        node = self._node
+        options = PublisherOptions(latch=True, queue_size=100)
         while self._publisher is None:
             try:
-                self._publisher = await node.advertise(
-                    "/rosout", "rosgraph_msgs/Log", latch=True, queue_size=100
+                self._publisher = await self._topics.advertise(
+                    "/rosout", "rosgraph_msgs/Log", options
                 )
             except MasterError:
                 self._expect(False)
-                await node._pause(_RETRY)
+                await self._context.pause(_RETRY)
         # As rospy and roscpp have it: for nodes with many topics.
         with contextlib.suppress(MasterError):
-            disabled = await node.get_param("/rosout_disable_topics_generation", False)
+            disabled = await self._params.get("/rosout_disable_topics_generation", False)
             self._has_topics = disabled is not True
-        known = self._publisher._publication.known_subscribers
+        publication = self._topics.published("/rosout")
+        known = publication.known_subscribers if publication is not None else 0
         self._expect(known > 0)
         with contextlib.suppress(TimeoutError):
             await self._publisher.wait_for_subscribers(max(1, known), timeout=_FIRST_SUBSCRIBERS)
@@ -131,7 +137,7 @@ class Rosout(Unseen):
 
     def _is_of_another(self, record: logging.LogRecord) -> bool:
         """Whether it is of a node whose name, and so its logger, is below ours."""
-        own, name = self._node.log.logger.name, self._node.name
+        own, name = self._context.log.logger.name, self._context.name
         if f"{record.name}.".startswith(f"{own}."):
             # The handler of the nearest node comes first.
             record.__dict__.setdefault("ros_node", name)
@@ -140,9 +146,9 @@ class Rosout(Unseen):
     def _fields(self, record: logging.LogRecord) -> dict[str, Any]:
         """What does not change any more, whatever the thread does next."""
         return {
-            "header": {"stamp": Time.from_nsec(self._node._clock.nanoseconds())},
+            "header": {"stamp": Time.from_nsec(self._context.clock.nanoseconds())},
             "level": ros_level(record.levelno),
-            "name": self._node.name,
+            "name": self._context.name,
             "msg": _sendable(self.format(record)),
             # Records that were made by hand may have anything there.
             "file": _sendable(str(record.pathname)),
@@ -165,7 +171,7 @@ class Rosout(Unseen):
             return
         self._is_publishing = True
         try:
-            topics = sorted(self._node._roles.publications) if self._has_topics else []
+            topics = sorted(self._topics.publications) if self._has_topics else []
             # Not those that threads add meanwhile, or a busy one would hold up the loop.
             for _ in range(len(self._waiting)):
                 publisher.publish(topics=topics, **self._waiting.popleft())

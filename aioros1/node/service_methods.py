@@ -1,35 +1,39 @@
-"""Services, as a node uses them."""
+"""The methods of a node that are about services."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Unpack, overload
 
-from aioros1.core.role import Opening
+from aioros1.core.opening import Opening
 from aioros1.idl import Message
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
-from aioros1.services.provider import Handler, ServiceProvider, ServiceProviderOptions
-from aioros1.waiting import deadline
+from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
+from aioros1.services.provider_connection import Handler
+from aioros1.services.services import Services
 
 if TYPE_CHECKING:
     from aioros1.idl import Service
     from aioros1.idl.genpy_types import GenpyMessage, GenpyService
-    from aioros1.node.node_roles import Roles
 
-__all__ = ["ServiceCalls"]
+__all__ = ["ServiceMethods"]
 
 Q = TypeVar("Q", bound=Message)
 A = TypeVar("A", bound=Message)
 
+RawHandler = Handler[bytes, "bytes | bytearray | memoryview"]
 
-class ServiceCalls(ABC):
-    """The part of :class:`Node` that is about services."""
 
-    _roles: Roles
+class _CallerKeywords(TypedDict, total=False):
+    persistent: bool
+    timeout: float | None
+    tcp_nodelay: bool
 
-    @abstractmethod
-    def resolve_name(self, name: str) -> str: ...
+
+class ServiceMethods:
+    """The part of :class:`~aioros1.Node` that is about services."""
+
+    _services: Services
 
     @overload
     def advertise_service(
@@ -39,7 +43,18 @@ class ServiceCalls(ABC):
         handler: Handler[Q, A] | None = None,
         *,
         max_concurrency: int | None = None,
+        raw: Literal[False] = False,
     ) -> Opening[ServiceProvider[Q, A]]: ...
+    @overload
+    def advertise_service(
+        self,
+        name: str,
+        type: type[Service[Any, Any]] | str | type[GenpyService],
+        handler: RawHandler | None = None,
+        *,
+        max_concurrency: int | None = None,
+        raw: Literal[True],
+    ) -> Opening[ServiceProvider[bytes, bytes]]: ...
     @overload
     def advertise_service(
         self,
@@ -48,6 +63,7 @@ class ServiceCalls(ABC):
         handler: Handler[Any, Any] | None = None,
         *,
         max_concurrency: int | None = None,
+        raw: bool = False,
     ) -> Opening[ServiceProvider[Any, Any]]: ...
     def advertise_service(
         self,
@@ -56,19 +72,23 @@ class ServiceCalls(ABC):
         handler: Handler[Any, Any] | None = None,
         *,
         max_concurrency: int | None = None,
+        raw: bool = False,
     ) -> Opening[ServiceProvider[Any, Any]]:
         """Open a service provider.
 
         ``handler`` is a function or a coroutine function: it takes the request and
         returns the response, a dict of its fields, or None for a default response. What
         it raises is the caller's error. Without a handler, iterate the provider. At most
-        ``max_concurrency`` calls are worked on at a time.
+        ``max_concurrency`` calls are worked on at a time. With ``raw`` requests and
+        responses are serialised bytes, and ``type`` may be ``"*"``: calls of any type are
+        taken then.
 
         Raises as :meth:`advertise` does, and :class:`ValueError` when this node provides
         the service already.
         """
-        options = ServiceProviderOptions(max_concurrency=max_concurrency)
-        return Opening(self._roles.advertise_service(name, type, handler, options))
+        options = ServiceProviderOptions(max_concurrency=max_concurrency, raw=raw)
+        opening = self._services.advertise(name, type, handler, options)
+        return Opening(opening, f"provider of service {name}")
 
     @overload
     def service_caller(
@@ -76,19 +96,17 @@ class ServiceCalls(ABC):
         name: str,
         type: type[Service[Q, A]],
         *,
-        persistent: bool = False,
-        timeout: float | None = None,
-        tcp_nodelay: bool = True,
+        raw: Literal[False] = False,
+        **options: Unpack[_CallerKeywords],
     ) -> Opening[ServiceCaller[Q, A]]: ...
     @overload
     def service_caller(
         self,
         name: str,
-        type: str | type[GenpyService] = "*",
+        type: type[Service[Any, Any]] | str | type[GenpyService] = "*",
         *,
-        persistent: bool = False,
-        timeout: float | None = None,
-        tcp_nodelay: bool = True,
+        raw: bool = False,
+        **options: Unpack[_CallerKeywords],
     ) -> Opening[ServiceCaller[Any, Any]]: ...
     def service_caller(
         self,
@@ -98,12 +116,15 @@ class ServiceCalls(ABC):
         persistent: bool = False,
         timeout: float | None = None,
         tcp_nodelay: bool = True,
+        raw: bool = False,
     ) -> Opening[ServiceCaller[Any, Any]]:
-        """Open a service caller; see :class:`ServiceCallerOptions` for the options.
+        """Open a service caller; see :class:`~aioros1.ServiceCallerOptions` for the options.
 
         ``type`` is a service class, ours or genpy's, or ``"pkg/Type"``; then nobody is
         asked whether the service is there. With ``"*"`` its provider is asked for the
-        type, within ``timeout``, and the definition is that of the node's store.
+        type, within ``timeout``, and the definition is that of the node's store. With
+        ``raw`` requests and responses are serialised bytes, and nobody is asked for the
+        type even if it is ``"*"``.
 
         Raises :class:`~aioros1.MessageError`, :class:`~aioros1.InvalidNameError` and
         :class:`~aioros1.ClosedError`; with ``"*"`` what :meth:`service_type` raises, and
@@ -111,9 +132,10 @@ class ServiceCalls(ABC):
         :class:`~aioros1.Md5MismatchError` for one with another definition.
         """
         options = ServiceCallerOptions(
-            persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay
+            persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay, raw=raw
         )
-        return Opening(self._roles.service_caller(name, type, options))
+        opening = self._services.caller(name, type, options)
+        return Opening(opening, f"caller of service {name}")
 
     @overload
     async def call(
@@ -147,15 +169,11 @@ class ServiceCalls(ABC):
         timeout: float | None = None,
         **fields: Any,
     ) -> Any:
-        """One call of a service; see :meth:`service_caller` and :meth:`ServiceCaller.call`.
+        """One call of a service; see :meth:`service_caller` and :meth:`aioros1.ServiceCaller.call`.
 
         ``timeout`` covers the question for the type as well.
         """
-        async with (
-            deadline(timeout, f"service {self.resolve_name(name)}: no answer"),
-            self.service_caller(name, type) as caller,
-        ):
-            return await caller.call(request, **fields)
+        return await self._services.call(name, type, request, timeout, fields)
 
     async def service_type(self, name: str) -> str:
         """The type of a service, as its provider says it.
@@ -165,13 +183,11 @@ class ServiceCalls(ABC):
         :class:`~aioros1.HandshakeError` when it refuses, :class:`~aioros1.MasterError`,
         :class:`~aioros1.InvalidNameError` and :class:`~aioros1.ClosedError`.
         """
-        return await self._roles.service_type(name)
+        return await self._services.type_of(name)
 
     async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
         """Wait until a service is registered and its provider answers.
 
         Raises :class:`TimeoutError` after ``timeout`` seconds.
         """
-        # Of whatever type: to be asked whether it is there, a provider need not know.
-        async with self.service_caller(name, "std_srvs/Empty") as caller:
-            await caller.wait_for_service(timeout=timeout)
+        await self._services.wait_for(name, timeout)

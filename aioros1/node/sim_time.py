@@ -6,12 +6,12 @@ https://wiki.ros.org/Clock
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
 
+from aioros1.core.context import Context
 from aioros1.errors import MasterError
-
-if TYPE_CHECKING:
-    from aioros1.node import Node
+from aioros1.params.params import Params
+from aioros1.topics.options import SubscriberOptions
+from aioros1.topics.topics import Topics
 
 __all__ = ["SimTime"]
 
@@ -29,8 +29,10 @@ class SimTime:
     the time that it has.
     """
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(self, context: Context, topics: Topics, params: Params) -> None:
+        self._context = context
+        self._topics = topics
+        self._params = params
         self._following: asyncio.Task[None] | None = None
 
     async def ask(self) -> None:
@@ -40,15 +42,15 @@ class SimTime:
         keep those of nodes that were killed for ever, and nothing cleans them up. Raises
         :class:`~aioros1.MasterError`.
         """
-        wanted = self._node.options.use_sim_time
+        wanted = self._context.options.use_sim_time
         if wanted is None:
-            wanted = await self._node.get_param("/use_sim_time", None)
+            wanted = await self._params.get("/use_sim_time", None)
         if wanted is None or bool(wanted) is (self._following is not None):
             return
-        clock = self._node._clock
+        clock = self._context.clock
         if wanted:
             clock.simulate()
-            self._following = self._node._spawn(self._follow, name=f"{self._node.name} clock")
+            self._following = self._context.spawn(self._follow, name=f"{self._context.name} clock")
         elif self._following is not None:
             self._following.cancel()
             self._following = None
@@ -60,17 +62,19 @@ class SimTime:
             try:
                 await self._take_time()
             except MasterError:
-                await self._node._pause(_RETRY)
+                await self._context.pause(_RETRY)
             else:
                 return
 
     async def _take_time(self) -> None:
-        clock = self._node._clock
-        async with self._node.subscribe("/clock", "rosgraph_msgs/Clock", queue_size=1) as sub:
+        clock = self._context.clock
+        options = SubscriberOptions(queue_size=1)
+        sub = await self._topics.subscribe("/clock", "rosgraph_msgs/Clock", None, options)
+        async with sub:
             try:
                 clock.set((await sub.get(timeout=_SILENCE)).clock)
             except TimeoutError:
-                self._node.log.warning(
+                self._context.log.warning(
                     "time is simulated, but nothing came on /clock in %g s: it stands at zero, "
                     "and nothing that waits for it goes on",
                     _SILENCE,

@@ -10,13 +10,17 @@ import os
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from aioros1.core.context import Context
 from aioros1.names import canonicalize
+from aioros1.net.local_transports import LocalTransports
+from aioros1.params.params import Params
+from aioros1.services.services import Services
+from aioros1.topics.topics import Topics
 from aioros1.wire.xmlrpc import carriable
 from aioros1.xmlrpc.server import Reply
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
-    from aioros1.node import Node
 
 __all__ = ["SlaveApi"]
 
@@ -26,8 +30,21 @@ Triple = list[Any]
 class SlaveApi:
     """The ten methods, and the two that rospy has besides."""
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(
+        self,
+        context: Context,
+        topics: Topics,
+        services: Services,
+        params: Params,
+        local: LocalTransports,
+        shut_down: Callable[[str], None],
+    ) -> None:
+        self._context = context
+        self._topics = topics
+        self._services = services
+        self._params = params
+        self._local = local
+        self._shut_down = shut_down
 
     @property
     def methods(self) -> Mapping[str, Callable[..., Any]]:
@@ -48,7 +65,6 @@ class SlaveApi:
 
     def get_bus_stats(self, caller_id: Any) -> Triple:
         """[publish, subscribe, service] counters, in the form that rospy gives."""
-        node = self._node
         publish = [
             [
                 publication.name,
@@ -58,7 +74,7 @@ class SlaveApi:
                     for info in publication.connections
                 ],
             ]
-            for publication in node._roles.publications.values()
+            for publication in self._topics.publications.values()
         ]
         subscribe = [
             [
@@ -69,37 +85,37 @@ class SlaveApi:
                     for info in subscription.connections
                 ],
             ]
-            for subscription in node._roles.subscriptions.values()
+            for subscription in self._topics.subscriptions.values()
         ]
-        providers = node._roles.providers.values()
+        provisions = self._services.provisions.values()
         service = [
-            _int32(sum(provider.stats.messages for provider in providers)),
-            _int32(sum(provider.bytes_received for provider in providers)),
-            _int32(sum(provider.bytes_sent for provider in providers)),
+            _int32(sum(provision.stats.messages for provision in provisions)),
+            _int32(sum(provision.bytes_received for provision in provisions)),
+            _int32(sum(provision.bytes_sent for provision in provisions)),
         ]
         return [1, "bus stats", [publish, subscribe, service]]
 
     def get_bus_info(self, caller_id: Any) -> Triple:
-        return [1, "bus info", [_bus_info(info) for info in self._node.connections]]
+        return [1, "bus info", [_bus_info(info) for info in self._context.connections.infos]]
 
     def get_master_uri(self, caller_id: Any) -> Triple:
-        return [1, "master URI", self._node.master_uri]
+        return [1, "master URI", self._context.master.uri]
 
     def get_name(self, caller_id: Any) -> Triple:
-        return [1, "node name", self._node.name]
+        return [1, "node name", self._context.name]
 
     def get_uri(self, caller_id: Any) -> Triple:
-        return [1, "node URI", self._node.uri]
+        return [1, "node URI", self._context.address.uri]
 
     def get_pid(self, caller_id: Any) -> Triple:
         return [1, "process id", os.getpid()]
 
     def get_subscriptions(self, caller_id: Any) -> Triple:
-        rows = [[each.name, each.type] for each in self._node._roles.subscriptions.values()]
+        rows = [[each.name, each.type] for each in self._topics.subscriptions.values()]
         return [1, "subscriptions", rows]
 
     def get_publications(self, caller_id: Any) -> Triple:
-        publications = self._node._roles.publications.values()
+        publications = self._topics.publications.values()
         rows = [[each.name, each.message_class._type] for each in publications]
         return [1, "publications", rows]
 
@@ -108,14 +124,13 @@ class SlaveApi:
         if not isinstance(reason, str):
             return _wrong("msg", reason, "a string")
         who = caller_id if isinstance(caller_id, str) else "unknown caller"
-        node = self._node
-        return Reply([1, "shutdown", 0], after=lambda: node._shut_down(f"[{who}] {reason}"))
+        return Reply([1, "shutdown", 0], after=lambda: self._shut_down(f"[{who}] {reason}"))
 
     def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
         if not isinstance(key, str) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
         # The master sends the key with a slash at its end, tools without.
-        if not self._node._roles.param_updated(canonicalize(key), value):
+        if not self._params.updated(canonicalize(key), value):
             return [-1, f"not subscribed to parameter {key}", 0]
         return [1, "", 0]
 
@@ -124,7 +139,7 @@ class SlaveApi:
             return _wrong("topic", topic, "the name of a topic")
         if not isinstance(publishers, list) or not all(map(_is_http_uri, publishers)):
             return _wrong("publishers", publishers, "a list of http:// URIs")
-        subscription = self._node._roles.subscriptions.get(canonicalize(topic))
+        subscription = self._topics.subscriptions.get(canonicalize(topic))
         if subscription is not None:
             subscription.update(publishers)
         return [1, "", 0]
@@ -134,17 +149,16 @@ class SlaveApi:
             return _wrong("topic", topic, "the name of a topic")
         if not isinstance(protocols, list) or not protocols:
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
-        publication = self._node._roles.publications.get(canonicalize(topic))
-        if publication is None or not publication.publishers:
-            return [-1, f"{self._node.name} does not publish {topic}", []]
+        if self._topics.published(canonicalize(topic)) is None:
+            return [-1, f"{self._context.name} does not publish {topic}", []]
         # Others are passed over, whatever they look like: who asks for them may well
         # understand this one too.
         readable = [each for each in protocols if _is_protocol(each)]
-        local = self._node._acceptor.local.answer(readable)
+        local = self._local.answer(readable)
         if local is not None:
             return [1, "ready", local]
         if any(protocol[0] == "TCPROS" for protocol in readable):
-            host, port = self._node.tcpros_address
+            host, port = self._context.address.tcpros
             return [1, "ready", ["TCPROS", host, port]]
         if len(readable) < len(protocols):
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")

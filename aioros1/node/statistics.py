@@ -12,13 +12,16 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
+from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterUnreachable
+from aioros1.params.params import Params
 from aioros1.time import Duration, Time
+from aioros1.topics.options import PublisherOptions
+from aioros1.topics.publisher import Publisher
+from aioros1.topics.topics import Topics
 
 if TYPE_CHECKING:
     from aioros1.net.topic_links import IncomingLink, Received
-    from aioros1.node import Node
-    from aioros1.topics.publisher import Publisher
     from aioros1.topics.subscription import Subscription
 
 __all__ = ["Statistics"]
@@ -41,8 +44,10 @@ _PARAMS: dict[str, float] = {
 class Statistics:
     """Watches what a node receives."""
 
-    def __init__(self, node: Node) -> None:
-        self._node = node
+    def __init__(self, context: Context, topics: Topics, params: Params) -> None:
+        self._context = context
+        self._topics = topics
+        self._params = params
         self._publisher: Publisher[Any] | None = None
         self._windows: WeakKeyDictionary[IncomingLink, _Window] = WeakKeyDictionary()
         self._bounds = dict(_PARAMS)
@@ -53,16 +58,16 @@ class Statistics:
             try:
                 await self._begin()
             except MasterUnreachable:
-                await self._node._pause(_RETRY)
-        self._node._statistics = self
+                await self._context.pause(_RETRY)
+        self._topics.watch(self.received)
 
     async def _begin(self) -> None:
         for name, default in _PARAMS.items():
-            value = await self._node.get_param(f"/statistics_window_{name}", default)
+            value = await self._params.get(f"/statistics_window_{name}", default)
             if isinstance(value, (int, float)):
                 self._bounds[name] = value
-        self._publisher = await self._node.advertise(
-            "/statistics", "rosgraph_msgs/TopicStatistics", queue_size=10
+        self._publisher = await self._topics.advertise(
+            "/statistics", "rosgraph_msgs/TopicStatistics", PublisherOptions(queue_size=10)
         )
 
     def received(self, subscription: Subscription, frames: list[Received]) -> None:
@@ -81,7 +86,7 @@ class Statistics:
             self._publisher.publish(
                 topic=subscription.name,
                 node_pub=link.info.header.get("callerid", ""),
-                node_sub=self._node.name,
+                node_sub=self._context.name,
                 window_start=Time.from_nsec(window.begin),
                 window_stop=Time.from_nsec(batch.received),
                 **window.figures(),

@@ -1,59 +1,54 @@
-"""Topics, as a node uses them."""
+"""The methods of a node that are about topics."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
+from collections.abc import Awaitable, Callable, Mapping
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Unpack, overload
 
-from aioros1.core.role import Opening
+from aioros1.core.opening import Opening
 from aioros1.idl import Message
-from aioros1.options import Overflow
-from aioros1.topics.publisher import Publisher, PublisherOptions
-from aioros1.topics.subscriber import Subscriber, SubscriberOptions
-from aioros1.waiting import deadline
+from aioros1.options import DEFAULT_QUEUE_SIZE, Overflow
+from aioros1.topics.options import PublisherOptions, SubscriberOptions
+from aioros1.topics.publisher import Publisher
+from aioros1.topics.subscriber import Subscriber
+from aioros1.topics.topics import Topics
 
 if TYPE_CHECKING:
     from aioros1.idl.genpy_types import GenpyMessage
     from aioros1.idl.message import AnyMessage
-    from aioros1.node.node_roles import Roles
 
-__all__ = ["TopicCalls"]
+__all__ = ["TopicMethods"]
 
 M = TypeVar("M", bound=Message)
 
 
-class TopicCalls(ABC):
-    """The part of :class:`Node` that is about topics."""
+class _PublisherKeywords(TypedDict, total=False):
+    latch: bool
+    queue_size: int
+    overflow: Overflow
+    tcp_nodelay: bool
+    headers: Mapping[str, str] | None
 
-    _roles: Roles
 
-    @abstractmethod
-    def resolve_name(self, name: str) -> str: ...
+class _SubscriberKeywords(TypedDict, total=False):
+    queue_size: int
+    overflow: Overflow
+    tcp_nodelay: bool
+    views: bool
+
+
+class TopicMethods:
+    """The part of :class:`~aioros1.Node` that is about topics."""
+
+    _topics: Topics
 
     @overload
     def advertise(
-        self,
-        topic: str,
-        type: type[M],
-        *,
-        latch: bool = False,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = False,
-        headers: Mapping[str, str] | None = None,
+        self, topic: str, type: type[M], **options: Unpack[_PublisherKeywords]
     ) -> Opening[Publisher[M]]: ...
     @overload
     def advertise(
-        self,
-        topic: str,
-        type: str | type[GenpyMessage],
-        *,
-        latch: bool = False,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = False,
-        headers: Mapping[str, str] | None = None,
+        self, topic: str, type: str | type[GenpyMessage], **options: Unpack[_PublisherKeywords]
     ) -> Opening[Publisher[Any]]: ...
     def advertise(
         self,
@@ -61,12 +56,12 @@ class TopicCalls(ABC):
         type: Any,
         *,
         latch: bool = False,
-        queue_size: int = 10,
+        queue_size: int = DEFAULT_QUEUE_SIZE,
         overflow: Overflow = "drop_oldest",
         tcp_nodelay: bool = False,
         headers: Mapping[str, str] | None = None,
     ) -> Opening[Publisher[Any]]:
-        """Open a publisher; see :class:`PublisherOptions` for the options.
+        """Open a publisher; see :class:`~aioros1.PublisherOptions` for the options.
 
         ``type`` is a message class, ours or genpy's, or ``"pkg/Type"``. Several
         publishers of one topic in one node look like one to the others. Raises
@@ -80,71 +75,72 @@ class TopicCalls(ABC):
             tcp_nodelay=tcp_nodelay,
             headers=headers,
         )
-        return Opening(self._roles.advertise(topic, type, options))
+        return Opening(self._topics.advertise(topic, type, options), f"publisher {topic}")
 
     @overload
     def subscribe(
         self,
         topic: str,
         type: type[M],
+        callback: Callable[[M], object] | Callable[[M], Awaitable[object]] | None = None,
         *,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = True,
         raw: Literal[False] = False,
-        views: bool = False,
+        **options: Unpack[_SubscriberKeywords],
     ) -> Opening[Subscriber[M]]: ...
     @overload
     def subscribe(
         self,
         topic: str,
         type: type[Message] | type[GenpyMessage] | str = "*",
+        callback: Callable[[bytes], object] | Callable[[bytes], Awaitable[object]] | None = None,
         *,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = True,
         raw: Literal[True],
-        views: bool = False,
+        **options: Unpack[_SubscriberKeywords],
     ) -> Opening[Subscriber[bytes]]: ...
     @overload
     def subscribe(
         self,
         topic: str,
         type: Literal["*"] = "*",
+        callback: (
+            Callable[[AnyMessage], object] | Callable[[AnyMessage], Awaitable[object]] | None
+        ) = None,
         *,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = True,
         raw: Literal[False] = False,
-        views: bool = False,
+        **options: Unpack[_SubscriberKeywords],
     ) -> Opening[Subscriber[AnyMessage]]: ...
     @overload
     def subscribe(
         self,
         topic: str,
         type: type[Message] | type[GenpyMessage] | str = "*",
+        callback: Callable[[Any], object] | Callable[[Any], Awaitable[object]] | None = None,
         *,
-        queue_size: int = 10,
-        overflow: Overflow = "drop_oldest",
-        tcp_nodelay: bool = True,
         raw: bool = False,
-        views: bool = False,
+        **options: Unpack[_SubscriberKeywords],
     ) -> Opening[Subscriber[Any]]: ...
     def subscribe(
         self,
         topic: str,
         type: Any = "*",
+        callback: Callable[[Any], object] | Callable[[Any], Awaitable[object]] | None = None,
         *,
-        queue_size: int = 10,
+        queue_size: int = DEFAULT_QUEUE_SIZE,
         overflow: Overflow = "drop_oldest",
         tcp_nodelay: bool = True,
         raw: bool = False,
         views: bool = False,
     ) -> Opening[Subscriber[Any]]:
-        """Open a subscriber; see :class:`SubscriberOptions` for the options.
+        """Open a subscriber; see :class:`~aioros1.SubscriberOptions` for the options.
 
         ``type`` is as for :meth:`advertise`, or ``"*"``: messages are then decoded as
-        each publisher defines them. Raises as :meth:`advertise` does.
+        each publisher defines them. ``callback`` takes each message, in place of an
+        iteration: a plain function is called where the message arrives, a coroutine
+        function is awaited message by message; see :class:`~aioros1.Subscriber`. Messages
+        that publishers have latched come first.
+
+        Raises as :meth:`advertise` does, and :class:`TypeError` for a callback that cannot
+        be called.
         """
         options = SubscriberOptions(
             queue_size=queue_size,
@@ -153,7 +149,10 @@ class TopicCalls(ABC):
             raw=raw,
             views=views,
         )
-        return Opening(self._roles.subscribe(topic, type, options))
+        if callback is not None and not callable(callback):
+            raise TypeError(f"subscriber {topic}: the callback is a function, got {callback!r}")
+        opening = self._topics.subscribe(topic, type, callback, options)
+        return Opening(opening, f"subscriber {topic}")
 
     @overload
     async def wait_for_message(
@@ -174,8 +173,4 @@ class TopicCalls(ABC):
 
         Raises :class:`TimeoutError` after ``timeout`` seconds, and as :meth:`subscribe`.
         """
-        async with (
-            deadline(timeout, f"no message on {self.resolve_name(topic)}"),
-            self.subscribe(topic, type, queue_size=1, overflow="drop_newest") as subscriber,
-        ):
-            return await subscriber.get()
+        return await self._topics.wait_for_message(topic, type, timeout)

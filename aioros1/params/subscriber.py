@@ -12,72 +12,20 @@ from aioros1.events import ParamUpdate
 from aioros1.waiting import Waiters
 
 if TYPE_CHECKING:
-    from aioros1.node import Node
+    from aioros1.core.context import Context
+    from aioros1.params.followed import FollowedParam
 
-__all__ = ["FollowedParam", "ParamSubscriber"]
-
-
-class FollowedParam:
-    """A parameter that a node follows, for all its subscribers.
-
-    The master announces the key that was set, which may be the followed one, one below
-    it, or, where the parameter was set through one above, the followed one with its
-    part. ``{}`` stands for a parameter that is not set.
-    """
-
-    def __init__(self, node: Node, key: str) -> None:
-        self.name = key
-        self.value: Any = {}
-        self.subscribers: list[ParamSubscriber] = []
-        self._node = node
-        self._updates = 0
-        self.registration = node._roles.registration(
-            "parameter", key, self._register, self._unregister
-        )
-
-    @property
-    def is_used(self) -> bool:
-        return bool(self.subscribers)
-
-    def concerns(self, key: str) -> bool:
-        """Whether setting ``key`` changes this parameter: it is it, above it or below it."""
-        return key == self.name or _is_below(key, self.name) or _is_below(self.name, key)
-
-    def update(self, key: str, value: Any) -> None:
-        """``key`` was set to ``value``; it is the followed one, one below or one above it."""
-        self._updates += 1
-        if self.name != key and _is_below(self.name, key):
-            value = _dig(value, _path(self.name, key))
-            key = self.name
-        path = [] if key == self.name else _path(key, self.name)
-        if value == {} and _dig(self.value, path) == {}:
-            return  # unset already: the master tells also the node that deleted it
-        self.value = _graft(self.value, path, value) if path else value
-        for subscriber in self.subscribers:
-            subscriber._put(ParamUpdate(key, copy.deepcopy(value)))
-        self._node._emit(ParamUpdate(key, copy.deepcopy(value)))
-
-    async def _register(self) -> None:
-        node = self._node
-        updates = self._updates
-        value = await node._registrar.subscribe_param(self.name, node.uri)
-        if updates == self._updates and value != self.value:
-            if self.subscribers:
-                self.update(self.name, value)  # it changed while the master was away
-            else:
-                self.value = value
-
-    async def _unregister(self) -> None:
-        await self._node._registrar.unsubscribe_param(self.name, self._node.uri)
+__all__ = ["ParamSubscriber"]
 
 
 class ParamSubscriber(Role):
-    """Follows a parameter and all below it; made by :meth:`Node.subscribe_param`."""
+    """Follows a parameter and all below it; made by
+    :meth:`aioros1.Node.subscribe_param`."""
 
     kind = "parameter subscriber"
 
-    def __init__(self, node: Node, followed: FollowedParam, default: Any) -> None:
-        super().__init__(node, followed.name)
+    def __init__(self, context: Context, followed: FollowedParam, default: Any) -> None:
+        super().__init__(context, followed.name)
         self._followed = followed
         self._default = default
         self._updates: deque[ParamUpdate] = deque(maxlen=1000)
@@ -134,6 +82,10 @@ class ParamSubscriber(Role):
         )
         return found[0]
 
+    def _begin(self) -> None:
+        """It is handed out: what came before is in its value."""
+        self._updates.clear()
+
     def _put(self, update: ParamUpdate) -> None:
         if len(self._updates) == self._updates.maxlen:
             self.stats.dropped += 1
@@ -148,38 +100,4 @@ class ParamSubscriber(Role):
     async def _close(self) -> None:
         self._updates.clear()
         self._arrived.wake()
-        await self._node._roles.close_param_subscriber(self, self._followed)
-
-
-def _is_below(key: str, other: str) -> bool:
-    return other == "/" or key.startswith(other + "/")
-
-
-def _path(key: str, above: str) -> list[str]:
-    """The names that lead from ``above`` to ``key`` below it."""
-    return key[len(above.rstrip("/")) + 1 :].split("/")
-
-
-def _dig(value: Any, path: list[str]) -> Any:
-    """The part of ``value`` at ``path``; ``{}`` where there is none."""
-    for name in path:
-        if not isinstance(value, dict) or name not in value:
-            return {}
-        value = value[name]
-    return value
-
-
-def _graft(tree: Any, path: list[str], value: Any) -> Any:
-    """``tree`` with ``value`` at ``path``; what is in the way of the path is replaced.
-
-    A deleted key, announced as ``{}``, is taken out.
-    """
-    tree = dict(tree) if isinstance(tree, dict) else {}
-    name, *rest = path
-    if rest:
-        tree[name] = _graft(tree.get(name), rest, value)
-    elif isinstance(value, dict) and not value:
-        tree.pop(name, None)
-    else:
-        tree[name] = value
-    return tree
+        await self._followed.leave(self)

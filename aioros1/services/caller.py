@@ -18,21 +18,19 @@ from aioros1.errors import (
     ServiceError,
     ServiceUnavailable,
 )
-from aioros1.events import PeerConnected, PeerDisconnected
-from aioros1.idl.message_from import message_from
 from aioros1.net.backoff import Backoff
-from aioros1.net.service_link import ServiceLink
-from aioros1.net.tcpros import Stream, connection_info, take_over
-from aioros1.services.lookup import agree, look_up, probe
-from aioros1.waiting import Waiters, deadline
+from aioros1.services.caller_connection import CallerConnection, connect_to
+from aioros1.services.lookup import look_up, probe
+from aioros1.services.side import Side, callers_side, raw_side
+from aioros1.waiting import Deadlines, Mutex
 from aioros1.wire.handshake import ServiceOffer
 from aioros1.wire.service import ANSWER_HEAD, SUCCESS, ServiceFrameError
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
+    from aioros1.core.context import Context
     from aioros1.idl import Service
     from aioros1.idl.genpy_types import GenpyMessage
-    from aioros1.node import Node
 
 __all__ = ["PendingCall", "ServiceCaller", "ServiceCallerOptions"]
 
@@ -42,7 +40,8 @@ A = TypeVar("A")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServiceCallerOptions:
-    """How a caller was opened; the defaults are those of :meth:`Node.service_caller`."""
+    """How a caller was opened; the defaults are those of
+    :meth:`aioros1.Node.service_caller`."""
 
     persistent: bool = False
     """Keep one connection for all calls, which then happen one after the other.
@@ -54,6 +53,9 @@ class ServiceCallerOptions:
     tcp_nodelay: bool = True
     """Ask the provider to send small answers at once."""
 
+    raw: bool = False
+    """Call with serialised bytes alone, whatever the type of the service."""
+
 
 class PendingCall(asyncio.Task[A]):
     """A call on its way, from :meth:`ServiceCaller.send_request`; await it for the response."""
@@ -63,7 +65,7 @@ class PendingCall(asyncio.Task[A]):
 
 
 class ServiceCaller(Role, Generic[Q, A]):
-    """Calls one service; made by :meth:`Node.service_caller`.
+    """Calls one service; made by :meth:`aioros1.Node.service_caller`.
 
     A caller is not registered at the master, and opening one does not ask whether the
     service is there. A request is sent once: when its connection is lost before the
@@ -74,46 +76,47 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     def __init__(
         self,
-        node: Node,
+        context: Context,
         name: str,
-        service_class: type[Service[Any, Any]],
+        service_class: type[Service[Any, Any]] | None,
         options: ServiceCallerOptions,
     ) -> None:
-        super().__init__(node, name)
+        super().__init__(context, name)
         self.options = options
+        """How it was opened."""
         self.service_class = service_class
+        """The class of the service; None for a raw caller of any type."""
         self.provider_uri: str | None = None
         """The ``rosrpc://host:port`` that was called last."""
-        self._turn = asyncio.Lock()
-        self._is_busy = False  # with a call that did not take the lock
-        self._idle = Waiters()
-        self._kept: _Connection | None = None
-        self._open: set[_Connection] = set()
-        self._limits: set[deadline] = set()
+        self._raw_side = raw_side(f"service {name}")
+        is_raw = options.raw or service_class is None
+        self._side = self._raw_side if is_raw else callers_side(cast("Any", service_class))
+        self._mutex = Mutex()  # of the persistent connection: one call after the other
+        self._kept: CallerConnection | None = None
+        self._open: set[CallerConnection] = set()
+        self._limits = Deadlines()
         self._sequence = itertools.count(1)
 
     @property
     def type(self) -> str:
-        return self.service_class._type
+        return "*" if self.service_class is None else self.service_class._type
 
     @property
     def md5sum(self) -> str:
-        return self.service_class._md5sum
+        return "*" if self.service_class is None else self.service_class._md5sum
 
     @property
     def definition(self) -> str:
-        return self.service_class._full_text
+        return "" if self.service_class is None else self.service_class._full_text
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
         return tuple(connection.info for connection in self._open)
 
-    @property
-    def links(self) -> tuple[tuple[ServiceLink, ConnectionInfo], ...]:
-        return tuple((connection.link, connection.info) for connection in self._open)
-
     def request(self, **fields: Any) -> Q:
-        """A new request."""
+        """A new request. Raises :class:`TypeError` for a raw caller of any type."""
+        if self.service_class is None:
+            raise TypeError(f"service {self.name}: a caller of any type cannot make requests")
         return cast("Q", self.service_class._request_class(**fields))
 
     async def call(
@@ -140,39 +143,44 @@ class ServiceCaller(Role, Generic[Q, A]):
         is never taken for another call's.
         """
         self._check_open()
-        request_class = self.service_class._request_class
-        if fields or request.__class__ is not request_class:
-            request = message_from(request_class, request, fields, "request")
-        frame = request_class._frame(request)
-        seconds = self.options.timeout if timeout is ... else timeout
-        kept = self._kept
-        if (
-            seconds is None
-            and kept is not None
-            and kept.link.is_fresh
-            and not (self._is_busy or self._turn.locked())
-        ):
+        side = self._side
+        if fields or request.__class__ is not side.outgoing_class:
+            request = side.outgoing(request, fields)
+        answer = await self._call(side, side.frame(request), timeout)
+        return cast("A", answer)
+
+    async def call_raw(
+        self,
+        buffer: bytes | bytearray | memoryview = b"",
+        /,
+        *,
+        timeout: float | EllipsisType | None = ...,
+    ) -> bytes:
+        """Call with a serialised request; the serialised response. Nobody looks into them.
+
+        Raises as :meth:`call`.
+        """
+        self._check_open()
+        side = self._raw_side
+        answer = await self._call(side, side.frame(side.outgoing(buffer, {})), timeout)
+        return cast("bytes", answer)
+
+    async def _call(self, side: Side, frame: bytes, timeout: float | EllipsisType | None) -> Any:
+        seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
+        kept, mutex = self._kept, self._mutex
+        if seconds is None and kept is not None and kept.link.is_fresh and mutex.try_acquire():
             # The quick way of most calls: there is nothing to wait for but the answer, and
-            # that ends when the connection is closed. A deadline would cost 3 µs, to take
-            # the lock 1.
-            self._is_busy = True
+            # that ends when the connection is closed. A deadline would cost 3 µs.
             try:
-                return await self._exchange(kept, frame)
+                return await self._exchange(kept, side, frame)
             finally:
-                self._is_busy = False
-                self._idle.wake()
+                mutex.release()
         try:
-            async with deadline(seconds, f"service {self.name}: no answer") as limit:
-                self._limits.add(limit)
-                try:
-                    if not self.options.persistent:
-                        return await self._call_once(frame)
-                    async with self._turn:
-                        while self._is_busy:
-                            await self._idle.wait()
-                        return await self._call_kept(frame)
-                finally:
-                    self._limits.discard(limit)
+            async with self._limits.limit(seconds, f"service {self.name}: no answer"):
+                if not self.options.persistent:
+                    return await self._call_once(side, frame)
+                async with mutex:
+                    return await self._call_kept(side, frame)
         except TimeoutError:
             self._check_open()  # closing has ended it, and not the time
             raise
@@ -196,7 +204,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         call: PendingCall[A] = PendingCall(
             self.call(request, timeout=timeout, **fields),
             loop=asyncio.get_running_loop(),
-            name=f"{self._node.name} calls {self.name} ({number})",
+            name=f"{self._context.name} calls {self.name} ({number})",
         )
         call.sequence = number
         return call
@@ -213,30 +221,30 @@ class ServiceCaller(Role, Generic[Q, A]):
         """
         # The master tells nobody of new services, so there is nothing but to ask.
         backoff = Backoff(first=0.02, longest=0.5)
-        async with deadline(timeout, f"service {self.name} did not appear") as limit:
+        async with self._limits.limit(timeout, f"service {self.name} did not appear") as limit:
             while (obstacle := await self._obstacle()) is not None:
                 limit.why = obstacle
-                await self._node._pause(backoff.delay())
+                await self._context.pause(backoff.delay())
 
     async def _obstacle(self) -> Exception | None:
         """Why the service is not available; None when it is."""
         self._check_open()
         try:
-            await probe(self._node, self.name)
+            await probe(self._context, self.name, self._limits)
         except (ServiceError, HandshakeError, MasterError) as error:
             return error
         return None
 
     # one call
 
-    async def _call_once(self, frame: bytes) -> A:
+    async def _call_once(self, side: Side, frame: bytes) -> Any:
         connection = await self._connect()
         try:
-            return await self._exchange(connection, frame)
+            return await self._exchange(connection, side, frame)
         finally:
             self._drop(connection)
 
-    async def _call_kept(self, frame: bytes) -> A:
+    async def _call_kept(self, side: Side, frame: bytes) -> Any:
         connection = self._kept
         # Bytes that nobody asked for must not be taken for the answer to this call.
         if connection is not None and not connection.link.is_fresh:
@@ -244,12 +252,17 @@ class ServiceCaller(Role, Generic[Q, A]):
             connection = None
         if connection is None:
             connection = self._kept = await self._connect()
-        return await self._exchange(connection, frame)
+        return await self._exchange(connection, side, frame)
 
-    async def _exchange(self, connection: _Connection, frame: bytes) -> A:
+    async def _exchange(self, connection: CallerConnection, side: Side, frame: bytes) -> Any:
         """Send a request and take the answer; without one the connection is closed."""
         link = connection.link
-        self._count(connection, len(frame))
+        size = len(frame)
+        counters, stats = connection.info.stats, self.stats
+        counters.messages += 1
+        counters.bytes += size
+        stats.messages += 1
+        stats.bytes += size
         try:
             link.write(frame)
             if link.is_full:
@@ -264,24 +277,16 @@ class ServiceCaller(Role, Generic[Q, A]):
         if answer is None:
             self._drop(connection)
             raise self._lost("the provider closed the connection before it answered")
-        connection.info.stats.bytes += len(answer)
+        counters.bytes += len(answer)
         if answer[:1] != SUCCESS:
-            self.stats.errors += 1
+            stats.errors += 1
             raise ServiceError(answer[ANSWER_HEAD:].decode("utf-8", "surrogateescape"))
         try:
-            response: A = self.service_class._response_class._decode(
-                answer, ANSWER_HEAD, len(answer)
-            )
+            return side.decode(answer, ANSWER_HEAD, len(answer))
         except DeserializationError as error:
-            self.stats.errors += 1
+            stats.errors += 1
             self._drop(connection)
             raise self._lost(f"the provider's answer cannot be read: {error}") from error
-        return response
-
-    def _count(self, connection: _Connection, size: int) -> None:
-        for stats in (connection.info.stats, self.stats):
-            stats.messages += 1
-            stats.bytes += size
 
     def _lost(self, why: str) -> ServiceUnavailable | ClosedError:
         if not self._is_open:
@@ -290,68 +295,37 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     # connections
 
-    async def _connect(self) -> _Connection:
-        node = self._node
-        uri = self.provider_uri = await look_up(node, self.name)
-        stream, header = await agree(
-            node,
-            uri,
+    async def _connect(self) -> CallerConnection:
+        context, options = self._context, self.options
+        self.provider_uri = await look_up(context, self.name)
+        connection = await connect_to(
+            context,
+            self.provider_uri,
             ServiceOffer(self.name, self.type, self.md5sum),
-            persistent=self.options.persistent,
-            tcp_nodelay=self.options.tcp_nodelay,
+            persistent=options.persistent,
+            tcp_nodelay=options.tcp_nodelay,
         )
-        try:
-            link = ServiceLink(
-                stream,
-                head=ANSWER_HEAD,
-                max_bytes=node.limits.message_bytes,
-                patience=node.timeouts.stall,
-                stall=node.timeouts.stall,
-            )
-            try:
-                rest = await take_over(stream, link)
-                if rest:
-                    link.data_received(rest)
-            except OSError as error:
-                raise ServiceUnavailable(f"service {self.name}: {error}") from error
-            self._check_open()
-        except BaseException:
-            stream.abort()
-            raise
-        return self._opened(stream, link, header)
-
-    def _opened(self, stream: Stream, link: ServiceLink, header: Mapping[str, str]) -> _Connection:
-        peer = header.get("callerid", stream.peer)
-        info = connection_info(stream, self.name, "b", peer, header)
-        connection = _Connection(link, info)
+        if not self._is_open:
+            connection.link.abort()
+            raise self._closed_error()
         self._open.add(connection)
-        link.ended = lambda: self._drop(connection)  # also while nobody calls
-        self._node._emit(PeerConnected("service caller", self.name, info))
+        connection.link.ended = lambda: self._drop(connection)  # also while nobody calls
+        context.connections.add(self.kind, connection.link, connection.info)
         return connection
 
-    def _drop(self, connection: _Connection) -> None:
+    def _drop(self, connection: CallerConnection) -> None:
         connection.link.ended = None  # which would keep it until a collection of garbage
         connection.link.abort()
         if connection is self._kept:
             self._kept = None
-        if connection in self._open:
-            self._open.discard(connection)
-            self._node._emit(PeerDisconnected("service caller", self.name, connection.info))
+        self._open.discard(connection)
+        self._context.connections.remove(connection.link)
 
     def _abort(self) -> None:
         super()._abort()
-        for limit in self._limits:
-            limit.expire()
+        self._limits.expire()
         for connection in tuple(self._open):
             self._drop(connection)
 
     async def _close(self) -> None:
         self._abort()
-
-
-class _Connection:
-    __slots__ = ("info", "link")
-
-    def __init__(self, link: ServiceLink, info: ConnectionInfo) -> None:
-        self.link = link
-        self.info = info

@@ -1,4 +1,4 @@
-"""The provider of a service, as a caller finds it and shakes hands with it."""
+"""Finding the provider of a service, and shaking hands with it."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from aioros1.errors import (
 )
 from aioros1.idl.parser import split_type
 from aioros1.net.tcpros import Stream, connect
-from aioros1.waiting import deadline
+from aioros1.waiting import Deadlines
 from aioros1.wire.handshake import ServiceClient, ServiceOffer
 
 if TYPE_CHECKING:
+    from aioros1.core.context import Context
     from aioros1.idl.service import AnyService
-    from aioros1.node import Node
 
 __all__ = ["agree", "look_up", "probe", "service_class_of", "type_of"]
 
 
-async def look_up(node: Node, service: str) -> str:
+async def look_up(context: Context, service: str) -> str:
     """The ``rosrpc://host:port`` that the master gives.
 
     Raises :class:`~aioros1.ServiceNotFound`, and :class:`~aioros1.MasterError` for an answer
     that is none of a master.
     """
     try:
-        return await node.master.lookup_service(service)
+        return await context.master.lookup_service(service)
     except MasterError as error:
         if not error.is_refusal:
             raise
@@ -42,7 +42,7 @@ async def look_up(node: Node, service: str) -> str:
 
 
 async def agree(
-    node: Node,
+    context: Context,
     uri: str,
     wanted: ServiceOffer,
     *,
@@ -57,23 +57,23 @@ async def agree(
     """
     service = wanted.service
     try:
-        stream = await connect(*_address(service, uri), node.timeouts)
+        stream = await connect(*_address(service, uri), context.timeouts)
     except (OSError, TimeoutError) as error:
         raise ServiceUnavailable(f"service {service}: {error}") from error
     try:
         client = ServiceClient(
             f"{service} at {stream.peer}",
-            node.name,
+            context.name,
             wanted,
             persistent=persistent,
             probe=probe,
             tcp_nodelay=tcp_nodelay,
-            max_bytes=node.limits.header_bytes,
-            max_fields=node.limits.header_fields,
+            max_bytes=context.limits.header_bytes,
+            max_fields=context.limits.header_fields,
         )
         stream.writer.write(client.data_to_send())
         try:
-            await stream.receive_header(client, timeout=node.timeouts.handshake)
+            await stream.receive_header(client, timeout=context.timeouts.handshake)
         except (OSError, TimeoutError) as error:
             raise ServiceUnavailable(f"service {service}: {error}") from error
     except BaseException:
@@ -82,24 +82,19 @@ async def agree(
     return stream, client.header
 
 
-async def probe(node: Node, service: str) -> Mapping[str, str]:
+async def probe(context: Context, service: str, limits: Deadlines) -> Mapping[str, str]:
     """What the provider says of itself when it is asked whether it is there, of whatever
     type; rosservice asks in the same way, and no provider takes it for a call.
 
-    Raises as :func:`look_up` and :func:`agree` do.
+    The question ends with ``limits``. Raises as :func:`look_up` and :func:`agree` do.
     """
     wanted = ServiceOffer(service, type="*", md5sum="*")
-    probes = node._roles.probes
     try:
-        async with deadline(None, f"service {service}: no answer") as limit:
-            probes.add(limit)
-            try:
-                uri = await look_up(node, service)
-                stream, header = await agree(node, uri, wanted, probe=True)
-            finally:
-                probes.discard(limit)
+        async with limits.limit(None, f"service {service}: no answer"):
+            uri = await look_up(context, service)
+            stream, header = await agree(context, uri, wanted, probe=True)
     except TimeoutError:
-        node._check_open()  # closing has ended it, and not the time
+        context.check_open()  # closing has ended it, and not the time
         raise
     stream.abort()
     return header
@@ -119,7 +114,7 @@ def type_of(service: str, header: Mapping[str, str]) -> str:
     return name
 
 
-async def service_class_of(node: Node, service: str) -> type[AnyService]:
+def service_class_of(context: Context, service: str, header: Mapping[str, str]) -> type[AnyService]:
     """The class of the type that the provider says it has.
 
     A provider says the name of its type and the MD5 sum, and no definition, so that has to
@@ -127,11 +122,10 @@ async def service_class_of(node: Node, service: str) -> type[AnyService]:
     :class:`~aioros1.Md5MismatchError` when the store has another one by that name,
     :class:`~aioros1.MessageSpecError` when it cannot be read, and as :func:`agree` does.
     """
-    header = await probe(node, service)
     name = type_of(service, header)
     what = f"service {service} of {header.get('callerid', '?')} has type {name}"
     try:
-        known = node.store.load_srv(name)
+        known = context.store.load_srv(name)
     except MessageNotFoundError as error:
         raise MessageNotFoundError(f"{what}: {error.text}", error.places) from error
     md5sum = header.get("md5sum", "*")

@@ -9,43 +9,71 @@ the task of the connection, one call after the other.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Awaitable, Coroutine
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
 from aioros1.errors import DeserializationError, SerializationError, ServiceError
-from aioros1.idl.message_from import message_from
 from aioros1.wire.service import REQUEST_HEAD, SUCCESS, ServiceFrameError, encode_failure
 
 if TYPE_CHECKING:
+    import asyncio
+
     from aioros1.connection import ConnectionInfo
+    from aioros1.core.stats import RoleStats
     from aioros1.net.service_link import ServiceLink
-    from aioros1.services.provider import ServiceProvider
+    from aioros1.services.side import Side
     from aioros1.wire.handshake import Server
 
-__all__ = ["Serving"]
+__all__ = ["Handler", "ProviderConnection"]
+
+Q = TypeVar("Q")
+A = TypeVar("A")
+
+Answer: TypeAlias = A | Mapping[str, Any] | None
+Handler: TypeAlias = Callable[[Q], Answer[A] | Awaitable[Answer[A]]]
+"""A function or a coroutine function that answers a request."""
 
 Work: TypeAlias = Coroutine[Any, Any, bytes]
 """What gives the answer to a call that was begun."""
 
 
-class Serving:
+class Provided(Protocol):
+    """The service that a connection is about."""
+
+    side: Side
+    handler: Handler[Any, Any] | None
+    slots: asyncio.Semaphore | None
+    stats: RoleStats
+    bytes_received: int
+    bytes_sent: int
+
+    @property
+    def is_open(self) -> bool:
+        """Whether calls are answered."""
+
+    @property
+    def patience(self) -> float:
+        """Seconds that a caller of one call may take for its request."""
+
+    async def defer(self, request: Any, header: Mapping[str, str]) -> bytes:
+        """Leave a call to somebody who answers it later."""
+
+    def log_error(self, what: str, error: Exception) -> None:
+        """Log what has failed."""
+
+
+class ProviderConnection:
     """Answers the calls of one caller, over a connection whose hands are shaken."""
 
     def __init__(
-        self,
-        provider: ServiceProvider[Any, Any],
-        link: ServiceLink,
-        server: Server,
-        info: ConnectionInfo,
+        self, provision: Provided, link: ServiceLink, server: Server, info: ConnectionInfo
     ) -> None:
-        service_class = provider.service_class
-        self._provider = provider
+        self._provision = provision
         self._link = link
         self._server = server
         self._info = info
         self._is_lost = False  # what comes next may be anything
-        self._decode = service_class._request_class._decode
-        self._response_class = service_class._response_class
+        self._side = provision.side
 
     async def run(self) -> None:
         """Answer calls until the connection ends.
@@ -55,7 +83,7 @@ class Serving:
         persistent = self._server.persistent
         if persistent:
             self._link.at_once = self._at_once
-        while self._provider.is_open and await self._serve_call() and persistent:
+        while self._provision.is_open and await self._serve_call() and persistent:
             pass
 
     async def _serve_call(self) -> bool:
@@ -73,7 +101,7 @@ class Serving:
     async def _next(self) -> bytes | Work | None:
         """The next request, or the rest of one that was begun; None when no further one
         can be read."""
-        patience = self._provider.node.timeouts.handshake
+        patience = self._provision.patience
         try:
             # A persistent connection may be idle for days. A caller that connected for one
             # call and does not make it is as stuck as one that stops within it.
@@ -99,68 +127,69 @@ class Serving:
 
     def _begin(self, frame: bytes) -> bytes | Work:
         """Begin to work on a request; gives the answer, or what it takes to get it."""
-        provider, stats, size = self._provider, self._info.stats, len(frame)
+        provision, stats, side, size = self._provision, self._info.stats, self._side, len(frame)
         stats.messages += 1
         stats.bytes += size
-        provider.bytes_received += size
-        provider.stats.messages += 1
-        provider.stats.bytes += size
+        provision.bytes_received += size
+        counters = provision.stats
+        counters.messages += 1
+        counters.bytes += size
         try:
-            request = self._decode(frame, REQUEST_HEAD, size)
+            request = side.decode(frame, REQUEST_HEAD, size)
         except DeserializationError as error:
             # The length said where it ends, but a caller that sends such requests and one
             # that lost its place look the same.
             self._is_lost = True
             self._link.stop_reading()
             return encode_failure(f"bad request: {error}")
-        if provider.handler is None:
+        handler = provision.handler
+        if handler is None:
             return self._defer(request)
-        if provider.slots is not None:
+        if provision.slots is not None:
             return self._finish(self._in_turn(request))
         try:
-            result = provider.handler(request)
-            if result.__class__ is not self._response_class:
+            result = handler(request)
+            if result.__class__ is not side.outgoing_class:
                 if inspect.isawaitable(result):
                     return self._finish(result)
-                result = message_from(self._response_class, result, {})
-            return SUCCESS + self._response_class._frame(result)
+                result = side.outgoing(result, {})
+            return SUCCESS + side.frame(result)
         except Exception as error:  # whatever the handler raises is for the caller
             return self._failure(error)
 
     async def _finish(self, result: Awaitable[Any]) -> bytes:
+        side = self._side
         try:
-            message = message_from(self._response_class, await result, {})
-            return SUCCESS + self._response_class._frame(message)
+            return SUCCESS + side.frame(side.outgoing(await result, {}))
         except Exception as error:  # whatever the handler raises is for the caller
             return self._failure(error)
 
     async def _defer(self, request: Any) -> bytes:
         try:
-            return SUCCESS + await self._provider.defer(request, self._server.header)
+            return SUCCESS + await self._provision.defer(request, self._server.header)
         except ServiceError as error:
             return self._failure(error)
 
     async def _in_turn(self, request: Any) -> Any:
-        provider = self._provider
-        assert provider.handler is not None
-        assert provider.slots is not None
-        async with provider.slots:
-            result = provider.handler(request)
+        provision = self._provision
+        assert provision.handler is not None
+        assert provision.slots is not None
+        async with provision.slots:
+            result = provision.handler(request)
             return await result if inspect.isawaitable(result) else result
 
     def _failure(self, error: Exception) -> bytes:
         if isinstance(error, ServiceError):
             return encode_failure(error.text)
-        log, name = self._provider.node.log, self._provider.name
         if isinstance(error, SerializationError):
-            log.error("service %s: bad response", name, exc_info=error)
+            self._provision.log_error("bad response", error)
             return encode_failure(f"the service made a bad response: {error}")
-        log.error("service %s: the handler failed", name, exc_info=error)
+        self._provision.log_error("the handler failed", error)
         return encode_failure(str(error) or type(error).__name__)
 
     def _answer(self, answer: bytes) -> None:
-        provider = self._provider
-        provider.bytes_sent += len(answer)
+        provision = self._provision
+        provision.bytes_sent += len(answer)
         if answer[0] == 0:
-            provider.stats.errors += 1
+            provision.stats.errors += 1
         self._link.write(answer)

@@ -102,12 +102,13 @@ class LeakCheck:
 
 
 def _unclosed(tasks: set[asyncio.Task[Any]]) -> Iterator[str]:
-    """The nodes that have one of ``tasks``."""
+    """The nodes that have one of ``tasks``, which are named after them."""
     node = sys.modules.get("aioros1.node")
     if tasks and node is not None:
+        owners = {task.get_name() for task in tasks}
         for each in gc.get_objects():
             # By type(): looking at the __class__ of a stranger may run code of it.
-            if issubclass(type(each), node.Node) and each._supervisor._task in tasks:
+            if issubclass(type(each), node.Node) and f"node {each.name} supervisor" in owners:
                 yield f"never closed: {each!r}"
 
 

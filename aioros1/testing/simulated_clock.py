@@ -102,7 +102,7 @@ class SimulatedClock:
         """
         self._tracked.append(node)
         # One that was there before the clock learns of it as of any change of a parameter.
-        if node._clock.is_simulated or self._will_follow(node):
+        if node.uses_sim_time or self._will_follow(node):
             await self._wait_for(node)
 
     async def set(self, time: float | Time) -> None:
@@ -145,9 +145,9 @@ class SimulatedClock:
         moments = [
             moment
             for node in self._following()
-            if (moment := node._clock.next_awaited) is not None and moment > self._now.to_nsec()
+            if (moment := node.next_wakeup) is not None and moment > self._now
         ]
-        return Time.from_nsec(min(moments)) if moments else None
+        return min(moments, default=None)
 
     async def _step(self, moment: Time) -> None:
         await self._publish(moment)
@@ -165,11 +165,11 @@ class SimulatedClock:
         return is_ours and node.is_open and node.options.use_sim_time is not False
 
     def _following(self) -> list[Node]:
-        return [node for node in self._tracked if node.is_open and node._clock.is_simulated]
+        return [node for node in self._tracked if node.is_open and node.uses_sim_time]
 
     async def _wait_for(self, node: Node) -> None:
         try:
-            await node._clock.wait_until_shows(self._now.to_nsec(), timeout=_PATIENCE)
+            await node.wait_for_time(self._now, timeout=_PATIENCE)
         except TimeoutError:
             raise TimeoutError(
                 f"node {node.name} did not get the time {self._now} of /clock within "

@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 from typing import Any, Generic, Self, TypeVar, overload
 
+from aioros1.time import Time
 from aioros1.topics.subscriber import Subscriber
-from aioros1.waiting import wait_for_any
 
 __all__ = ["Merge", "merge"]
 
@@ -17,10 +17,11 @@ M = TypeVar("M")
 
 
 class Merge(Generic[M]):
-    """An asynchronous iterator over the messages of several subscribers; made by :func:`merge`.
+    """An asynchronous iterator over the messages of several subscribers; made by
+    :func:`aioros1.merge`.
 
-    It has no queue of its own: each message stays in its subscriber's until it is taken, and
-    so whoever is cancelled has lost none.
+    It has no queue of its own: each message stays in its subscriber's until it is taken, so
+    one that is cancelled has lost none.
     """
 
     def __init__(self, subscribers: tuple[Subscriber[Any], ...]) -> None:
@@ -34,15 +35,38 @@ class Merge(Generic[M]):
             subscribers = [sub for sub in self._subscribers if sub.is_open]
             if not subscribers:
                 raise StopAsyncIteration
-            waiting = [sub for sub in subscribers if sub.queued]
-            if not waiting:
-                await wait_for_any([sub._arrived for sub in subscribers])
+            first: tuple[Time, Subscriber[Any]] | None = None
+            for sub in subscribers:
+                received = sub.next_received
+                if received is not None and (first is None or received < first[0]):
+                    first = received, sub
+            if first is None:
+                await _wait_for_any(subscribers)
                 continue
-            first = min(waiting, key=_received)
             try:
-                return first.name, first.get_nowait()
+                return first[1].name, first[1].get_nowait()
             except asyncio.QueueEmpty:
                 pass  # what was there could not be decoded
+
+    def __repr__(self) -> str:
+        return f"<Merge of {', '.join(sub.name for sub in self._subscribers) or 'nothing'}>"
+
+
+async def _wait_for_any(subscribers: list[Subscriber[Any]]) -> None:
+    """Wait until one of them has a message, or is closed."""
+    arrived = asyncio.get_running_loop().create_future()
+
+    def wake() -> None:
+        if not arrived.done():
+            arrived.set_result(None)
+
+    for sub in subscribers:
+        sub.add_arrival_callback(wake)
+    try:
+        await arrived
+    finally:
+        for sub in subscribers:
+            sub.remove_arrival_callback(wake)
 
 
 @overload
@@ -62,16 +86,14 @@ def merge(*subscribers: Subscriber[Any]) -> Merge[Any]:
             ...
 
     The messages come in the order in which they were received, each with the resolved name
-    of its topic. What was taken here is not handed out by the subscriber again. Subscribers
+    of its topic. The subscriber does not hand out again what was taken here. Subscribers
     that are closed are left out from then on, and the iteration ends with the last of them.
-    Raises :class:`TypeError` for anything that is no :class:`Subscriber`.
+    Raises :class:`TypeError` for anything that is no :class:`~aioros1.Subscriber`, and for
+    one that has a callback.
     """
     for each in subscribers:
         if not isinstance(each, Subscriber):
             raise TypeError(f"merge takes subscribers, got {each!r}")
+        if each.callback is not None:
+            raise TypeError(f"merge: {each!r} has a callback, which gets all messages")
     return Merge(subscribers)
-
-
-def _received(subscriber: Subscriber[Any]) -> int:
-    """When its next message came, in nanoseconds."""
-    return subscriber._queue[0][0].received

@@ -15,35 +15,53 @@ rest of the graph they are one. This is the sending half of the data path:
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Protocol
 
 from aioros1.connection import ConnectionInfo
-from aioros1.events import PeerConnected, PeerDisconnected
+from aioros1.core.context import Context
+from aioros1.core.shared import Shared
+from aioros1.errors import Md5MismatchError
 from aioros1.net.coalescing import this_loops_turn
+from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
 from aioros1.waiting import Waiters
 from aioros1.wire.allocation import keep_memory
-from aioros1.wire.handshake import TopicOffer
+from aioros1.wire.handshake import Server, TopicOffer
 
 if TYPE_CHECKING:
+    from aioros1.core.stats import RoleStats
     from aioros1.idl import Message
-    from aioros1.node import Node
-    from aioros1.topics.publisher import Publisher
+    from aioros1.topics.options import PublisherOptions
 
 __all__ = ["Publication"]
 
 
-class Publication:
+class Publishing(Protocol):
+    """A publisher, as its publication sees it."""
+
+    options: PublisherOptions
+    stats: RoleStats
+    _latched: Frame | None
+    """The message that new subscribers get first."""
+
+
+class Publication(Shared[Publishing]):
     """One published topic of one node."""
 
-    def __init__(self, node: Node, topic: str, message_class: type[Message]) -> None:
-        self.name = topic
+    kind = "publisher"
+
+    def __init__(
+        self,
+        context: Context,
+        topic: str,
+        table: dict[str, Publication],
+        message_class: type[Message],
+    ) -> None:
+        super().__init__(context, topic, table)
         self.message_class = message_class
-        self.publishers: list[Publisher[Any]] = []
         self.changed = Waiters()
         """Woken when a connection comes or goes, and when a queue gets shorter."""
         self._bytes_of_closed = 0
-        self._node = node
         # Tuples that are replaced, not changed: writing to a connection may end it or
         # slow it down while we walk through them.
         self._open: tuple[OutgoingLink, ...] = ()
@@ -56,31 +74,22 @@ class Publication:
         """Whether messages wait in the queue of any connection."""
         self.has_subscribers = False
         self.known_subscribers = 0
-        """Those that the master named when it was last told."""
-        self.registration = node._roles.registration(
-            "publisher", topic, self._register, self._unregister
-        )
-
-    @property
-    def is_used(self) -> bool:
-        return bool(self.publishers)
-
-    @property
-    def links(self) -> tuple[OutgoingLink, ...]:
-        return self._open + self._slow
+        """How many the master named when it was last told of this publication."""
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
-        return tuple(link.info for link in self.links)
+        """The connections of its subscribers."""
+        return tuple(link.info for link in self._links)
 
     @property
     def subscriber_count(self) -> int:
+        """How many subscribers are connected."""
         return len(self._open) + len(self._slow)
 
     @property
     def bytes_published(self) -> int:
         """What all publishers have published so far, closed ones too."""
-        return self._bytes_of_closed + sum(each.stats.bytes for each in self.publishers)
+        return self._bytes_of_closed + sum(each.stats.bytes for each in self.roles)
 
     @property
     def is_drained(self) -> bool:
@@ -89,30 +98,22 @@ class Publication:
         return not self._slow
 
     @property
-    def latching(self) -> bool:
-        return any(publisher.options.latch for publisher in self.publishers)
+    def _links(self) -> tuple[OutgoingLink, ...]:
+        return self._open + self._slow
 
-    def offer(self) -> TopicOffer:
-        """What a subscriber is told when it connects."""
-        cls = self.message_class
-        return TopicOffer(self.name, cls._type, cls._md5sum, cls._full_text, self.latching)
-
-    def headers(self) -> dict[str, str]:
-        """Fields that the publishers want in the connection header besides the usual."""
-        fields: dict[str, str] = {}
-        for publisher in self.publishers:
-            fields.update(publisher.options.headers or {})
-        return fields
-
-    def remove(self, publisher: Publisher[Any]) -> None:
-        """One publisher less; what it has published still goes out."""
-        self.publishers.remove(publisher)
-        self._bytes_of_closed += publisher.stats.bytes
-        self.changed.wake()
+    def check_type(self, message_class: type[Message]) -> None:
+        """Raise :class:`~aioros1.Md5MismatchError` for a type that is not the one published."""
+        ours = self.message_class
+        if self.roles and ours._md5sum != message_class._md5sum:
+            raise Md5MismatchError(
+                f"{self._context.name} publishes {self.name} as {ours._type} with md5sum "
+                f"{ours._md5sum} already, not as {message_class._type} with md5sum "
+                f"{message_class._md5sum}"
+            )
 
     # sending
 
-    def send(self, frame: Frame, publisher: Publisher[Any]) -> None:
+    def send(self, frame: Frame, publisher: Publishing) -> None:
         """Give ``frame`` to every connection, or to its queue, as ``publisher`` wants."""
         stats = publisher.stats
         stats.messages += 1
@@ -121,7 +122,7 @@ class Publication:
             size = len(frame)
             stats.bytes += size
             for link in self._slow:
-                _enqueue(link, frame, publisher)
+                self._enqueue(link, frame, publisher)
             if not self._pending:
                 turn.at_end(self._flush)
             self._pending.append(frame)
@@ -136,7 +137,7 @@ class Publication:
         # belongs to those for whom the frame is queued.
         self._flush()
         for link in self._slow:
-            _enqueue(link, frame, publisher)
+            self._enqueue(link, frame, publisher)
         for link in self._open:
             link.write(frame, 1)
         turn.wrote()
@@ -144,10 +145,30 @@ class Publication:
             turn.lengthen()
             keep_memory(size)  # for the next one to be encoded
 
-    def has_room(self, publisher: Publisher[Any]) -> bool:
+    def has_room(self, publisher: Publishing) -> bool:
         """Whether every queue would take one more message without dropping any."""
         size = publisher.options.queue_size
-        return not self._slow or all(_waiting(link, publisher) < size for link in self._slow)
+        return not self._slow or all(self._waiting(link, publisher) < size for link in self._slow)
+
+    def _waiting(self, link: OutgoingLink, publisher: Publishing) -> int:
+        """How many of the publisher's messages wait for one connection."""
+        if len(self.roles) == 1:
+            return len(link.queue)
+        return sum(1 for _, owner in link.queue if owner is publisher)
+
+    def _enqueue(self, link: OutgoingLink, frame: Frame, publisher: Publishing) -> None:
+        """Queue a message for a slow connection; a full queue is the publisher's policy."""
+        if self._waiting(link, publisher) < publisher.options.queue_size:
+            link.queue.append((frame, publisher))
+            return
+        publisher.stats.dropped += 1
+        link.info.stats.dropped += 1
+        if publisher.options.overflow == "drop_oldest":
+            for index, (_, owner) in enumerate(link.queue):
+                if owner is publisher:
+                    del link.queue[index]
+                    break
+            link.queue.append((frame, publisher))
 
     def _flush(self) -> None:
         pending = self._pending
@@ -165,18 +186,46 @@ class Publication:
 
     # connections
 
-    def add(self, link: OutgoingLink) -> None:
+    async def serve(self, stream: Stream, server: Server) -> None:
+        """Send a subscriber what is published, from its handshake to its end.
+
+        Raises :class:`~aioros1.HandshakeError` and :class:`ConnectionError`.
+        """
+        context, cls = self._context, self.message_class
+        is_latching = any(publisher.options.latch for publisher in self.roles)
+        offer = TopicOffer(self.name, cls._type, cls._md5sum, cls._full_text, is_latching)
+        headers: dict[str, str] = {}
+        for publisher in self.roles:
+            headers.update(publisher.options.headers or {})
+        answer = server.accept_topic(context.name, offer, headers)
+        theirs = server.header.get("type", "*")
+        if theirs not in ("*", offer.type):
+            context.log.warning(
+                "%s subscribes to %s as %s, but it is %s; accepted, as their md5sums are the same",
+                *(server.caller_id, offer.topic, theirs, offer.type),
+            )
+        info = connection_info(stream, self.name, "o", server.caller_id, server.header)
+        link = OutgoingLink(stream, info, self, stall=context.timeouts.stall)
+        stream.writer.write(answer)
+        await take_over(stream, link)
+        self._add(link)
+        try:
+            await link.wait_closed()
+        finally:
+            link.abort()
+
+    def _add(self, link: OutgoingLink) -> None:
         """A subscriber has connected: it gets what is latched, then what is published."""
         self._flush()
         self._open += (link,)
         self._look()
-        for publisher in self.publishers:
-            if publisher.latched is not None:
+        for publisher in self.roles:
+            if publisher._latched is not None:
                 if link.is_open:
-                    link.write(publisher.latched, 1)
+                    link.write(publisher._latched, 1)
                 else:
-                    link.queue.append((publisher.latched, publisher))
-        self._node._emit(PeerConnected("publisher", self.name, link.info))
+                    link.queue.append((publisher._latched, publisher))
+        self._context.connections.add(self.kind, link, link.info)
         self.changed.wake()
 
     def link_paused(self, link: OutgoingLink) -> None:
@@ -202,11 +251,11 @@ class Publication:
         self._slow = tuple(other for other in self._slow if other is not link)
         self._look()
         if link.stalled:
-            self._node.log.warning(
+            self._context.log.warning(
                 "publisher %s: %s was cut off, because %s",
                 *(self.name, link.info.peer, link.failure),
             )
-        self._node._emit(PeerDisconnected("publisher", self.name, link.info, link.failure))
+        self._context.connections.remove(link, link.failure)
         self.changed.wake()
 
     def room_made(self) -> None:
@@ -214,14 +263,27 @@ class Publication:
 
     # the end
 
-    async def close_links(self, timeout: float) -> None:
-        """Close all connections once what was published has gone out; cut off the rest."""
+    def abort(self) -> None:
+        for link in self._links:
+            link.abort()
+
+    def _part(self, role: Publishing) -> None:
+        """What it has published still goes out."""
+        super()._part(role)
+        self._bytes_of_closed += role.stats.bytes
+        self.changed.wake()
+
+    async def _let_go(self) -> None:
+        """Close all connections once what was published has gone out; cut off the rest.
+
+        Before the master knows: some subscribers close the connection at its notice.
+        """
         self._flush()
-        links = self.links
+        links = self._links
         for link in links:
             link.close()
         try:
-            async with asyncio.timeout(timeout):
+            async with asyncio.timeout(self._context.timeouts.close):
                 for link in links:
                     await link.wait_closed()
         except TimeoutError:
@@ -229,40 +291,15 @@ class Publication:
         finally:
             self.abort()
 
-    def abort(self) -> None:
-        for link in self.links:
-            link.abort()
-
     # at the master
 
     async def _register(self) -> None:
-        node = self._node
-        uris = await node._registrar.register_publisher(
-            self.name, self.message_class._type, node.uri
+        context = self._context
+        uris = await context.registrar.register_publisher(
+            self.name, self.message_class._type, context.address.uri
         )
         self.known_subscribers = len(uris)
 
     async def _unregister(self) -> None:
-        await self._node._registrar.unregister_publisher(self.name, self._node.uri)
-
-
-def _waiting(link: OutgoingLink, publisher: Publisher[Any]) -> int:
-    """How many of the publisher's messages wait for one connection."""
-    if publisher.is_alone:
-        return len(link.queue)
-    return sum(1 for _, owner in link.queue if owner is publisher)
-
-
-def _enqueue(link: OutgoingLink, frame: Frame, publisher: Publisher[Any]) -> None:
-    """Queue a message for a slow connection; a full queue is the publisher's policy."""
-    if _waiting(link, publisher) < publisher.options.queue_size:
-        link.queue.append((frame, publisher))
-        return
-    publisher.stats.dropped += 1
-    link.info.stats.dropped += 1
-    if publisher.options.overflow == "drop_oldest":
-        for index, (_, owner) in enumerate(link.queue):
-            if owner is publisher:
-                del link.queue[index]
-                break
-        link.queue.append((frame, publisher))
+        context = self._context
+        await context.registrar.unregister_publisher(self.name, context.address.uri)

@@ -4,53 +4,32 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from weakref import WeakSet
 
+from aioros1.clock.timer import Timer
 from aioros1.core.role import Role
 from aioros1.errors import ClosedError
 from aioros1.idl import Message
 from aioros1.idl.message_from import message_from
 from aioros1.net.topic_links import JOIN, Frame
-from aioros1.options import Overflow, check_queue
+from aioros1.topics.options import PublisherOptions
 from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
 
 if TYPE_CHECKING:
-    from aioros1.clock.timer import Timer
     from aioros1.connection import ConnectionInfo
+    from aioros1.core.context import Context
     from aioros1.idl.genpy_types import GenpyMessage
-    from aioros1.node import Node
     from aioros1.time import Duration, Time
     from aioros1.topics.publication import Publication
 
-__all__ = ["Publisher", "PublisherOptions"]
+__all__ = ["Publisher"]
 
 M = TypeVar("M", bound=Message)
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PublisherOptions:
-    """How a publisher was opened; the defaults are those of :meth:`Node.advertise`."""
-
-    latch: bool = False
-    """Keep the last message, and send it to every subscriber that connects later."""
-
-    queue_size: int = 10
-    """Messages that may wait for one subscriber whose connection takes no more."""
-
-    overflow: Overflow = "drop_oldest"
-    """Which message goes when that queue is full; with ``block`` none does."""
-
-    tcp_nodelay: bool = False
-    """Kept for the record: small messages are never held back, whatever this says."""
-
-    headers: Mapping[str, str] | None = field(default=None)
-    """Additional fields of the connection header that subscribers get."""
-
-    def __post_init__(self) -> None:
-        check_queue(self.queue_size, self.overflow)
+# Unlike the public function it gives None where no loop runs, as in other threads.
+_get_running_loop = asyncio._get_running_loop
 
 
 class Publisher(Role, Generic[M]):
@@ -66,22 +45,25 @@ class Publisher(Role, Generic[M]):
 
     def __init__(
         self,
-        node: Node,
+        context: Context,
         publication: Publication,
         message_class: type[M],
         options: PublisherOptions,
     ) -> None:
-        super().__init__(node, publication.name)
+        super().__init__(context, publication.name)
         self.options = options
+        """How it was opened."""
         self.message_class = message_class
-        self.latched: Frame | None = None
-        """The encoded message that new subscribers get first, if latching."""
+        """The class of its messages."""
+        self._latched: Frame | None = None  # the message that new subscribers get first
         self._publication = publication
         self._blocks = options.overflow == "block"
         self._latches = options.latch
         self._frame = _frame_encoder(message_class)
         self._is_numbered = message_class._has_header
         self._seq = 0
+        # None once it is closed: one look for both questions that each message asks.
+        self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
         self._timers: WeakSet[Timer] = WeakSet()  # those that run keep themselves
 
     @property
@@ -110,11 +92,6 @@ class Publisher(Role, Generic[M]):
         """Messages dropped so far from full queues, counted once per subscriber."""
         return self.stats.dropped
 
-    @property
-    def is_alone(self) -> bool:
-        """Whether no other publisher of this node publishes the topic."""
-        return len(self._publication.publishers) == 1
-
     def message(self, **fields: Any) -> M:
         """A new message of the topic's type."""
         return self.message_class(**fields)
@@ -131,8 +108,8 @@ class Publisher(Role, Generic[M]):
         :class:`~aioros1.ClosedError`, and with ``overflow="block"``
         :class:`asyncio.QueueFull` when a subscriber has no room; then nobody got it.
         """
-        if not self._is_open:
-            raise self._closed_error()
+        if _get_running_loop() is not self._loop:
+            self._check_open()
         publication = self._publication
         turn = publication.turn
         if not turn.collects:
@@ -141,7 +118,7 @@ class Publisher(Role, Generic[M]):
         if self._blocks and publication.is_congested:
             self._require_room()
         if self._latches:
-            self.latched = frame
+            self._latched = frame
         publication.send(frame, self)
 
     def publish_raw(self, buffer: bytes | bytearray | memoryview) -> None:
@@ -157,7 +134,7 @@ class Publisher(Role, Generic[M]):
             turn.begin()
         frame = frame_parts(buffer, join=JOIN)
         if self._latches:
-            self.latched = frame
+            self._latched = frame
         self._publication.send(frame, self)
 
     async def send(
@@ -176,8 +153,8 @@ class Publisher(Role, Generic[M]):
         Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds;
         then, and when it is cancelled, the message was not published.
         """
-        if not self._is_open:
-            raise self._closed_error()
+        if _get_running_loop() is not self._loop:
+            self._check_open()
         publication = self._publication
         turn = publication.turn
         # Before it is published, and nothing after it: who is cancelled may send it again.
@@ -192,7 +169,7 @@ class Publisher(Role, Generic[M]):
             turn.begin()
         frame = self._encode(msg, fields)
         if self._latches:
-            self.latched = frame
+            self._latched = frame
         publication.send(frame, self)
 
     def publish_every(
@@ -209,7 +186,7 @@ class Publisher(Role, Generic[M]):
         and gives the message, or None for none. It ends with the publisher, or with
         :meth:`Timer.cancel` of what is returned. With ``overflow="block"`` a message waits
         for room as :meth:`send` does, and the ticks that it misses are skipped. An exception
-        is treated as one in a timer's callback, see ``on_error`` of :class:`Node`.
+        is treated as one in a timer's callback, see ``on_error`` of :class:`~aioros1.Node`.
 
         Raises :class:`ValueError` for a period that is not positive,
         :class:`~aioros1.SerializationError` for a message that cannot be published, and
@@ -236,7 +213,8 @@ class Publisher(Role, Generic[M]):
             except ClosedError:
                 pass  # while it waited
 
-        timer = self._node.timer(period, publish)
+        context = self._context
+        timer = Timer(context.clock, context.spawn, context.user_error, period, publish)
         self._timers.add(timer)
         return timer
 
@@ -287,14 +265,19 @@ class Publisher(Role, Generic[M]):
                 "waiting; use send() to wait for room"
             )
 
+    async def close(self) -> None:
+        self._loop = None
+        await super().close()
+
     def _abort(self) -> None:
+        self._loop = None
         super()._abort()
         self._publication.changed.wake()
 
     async def _close(self) -> None:
         for timer in tuple(self._timers):
             timer.cancel()
-        await self._node._roles.close_publisher(self, self._publication)
+        await self._publication.leave(self)
 
 
 def _frame_encoder(cls: type[Message]) -> Callable[[Any], Frame]:

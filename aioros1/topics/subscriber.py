@@ -3,56 +3,32 @@
 from __future__ import annotations
 
 import asyncio
+import inspect
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, NoReturn, Self, TypeVar
-from weakref import WeakKeyDictionary
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1.core.role import Role
-from aioros1.errors import DeserializationError, InvalidNameError, MessageError
+from aioros1.errors import DeserializationError
 from aioros1.net.topic_links import IncomingLink, Received
-from aioros1.options import Overflow, check_queue
 from aioros1.time import Time
+from aioros1.topics.decoding import Decoder, decoder_for
+from aioros1.topics.options import SubscriberOptions
 from aioros1.waiting import Waiters, deadline
 
 if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
-    from aioros1.idl import Message, MessageStore
-    from aioros1.node import Node
+    from aioros1.core.context import Context
+    from aioros1.idl import Message
     from aioros1.topics.subscription import Subscription
-    from aioros1.wire.handshake import TopicOffer
 
-__all__ = ["MessageEvent", "Subscriber", "SubscriberOptions"]
+__all__ = ["Callback", "MessageEvent", "Subscriber"]
 
 M = TypeVar("M")
 
-Decoder = Callable[[Received], Any]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SubscriberOptions:
-    """How a subscriber was opened; the defaults are those of :meth:`Node.subscribe`."""
-
-    queue_size: int = 10
-    """Messages that wait to be taken."""
-
-    overflow: Overflow = "drop_oldest"
-    """Which message goes when that queue is full; with ``block`` none does: the
-    publishers' connections are not read until there is room."""
-
-    tcp_nodelay: bool = True
-    """Ask publishers to send small messages at once."""
-
-    raw: bool = False
-    """Hand out serialised messages, as ``bytes``."""
-
-    views: bool = False
-    """Hand out numeric arrays and ``uint8[]`` as memoryviews of what was received,
-    without copying them."""
-
-    def __post_init__(self) -> None:
-        check_queue(self.queue_size, self.overflow)
+Callback = Callable[[Any], object] | Callable[[Any], Awaitable[object]]
+"""A function or a coroutine function that takes a message."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,39 +45,59 @@ class MessageEvent(Generic[M]):
 
 
 class Subscriber(Role, Generic[M]):
-    """Receives messages of a topic; made by :meth:`Node.subscribe`.
+    """Receives messages of a topic; made by :meth:`aioros1.Node.subscribe`.
 
     It has one queue, filled by the publishers' connections and emptied by whoever
     iterates or calls :meth:`get`, :meth:`get_nowait`; each message is handed out once.
     Messages are decoded when they are taken, so one that is dropped costs nothing. One
     that cannot be decoded is logged, counted in ``stats.errors`` and skipped.
+
+    With a callback there is nothing to iterate. A plain function is called where a message
+    arrives, and nothing is queued. A coroutine function is awaited message by message, in
+    order, in a task of the node, with the queue in front of it. What it raises is treated as
+    ``on_error`` of the node says. Closing the subscriber from within is allowed: no further
+    message is handed over then, and an ``async def`` callback runs to its end.
     """
 
     kind = "subscriber"
 
     def __init__(
         self,
-        node: Node,
+        context: Context,
         subscription: Subscription,
         message_class: type[Message] | None,
+        callback: Callback | None,
         options: SubscriberOptions,
     ) -> None:
-        super().__init__(node, subscription.name)
+        super().__init__(context, subscription.name)
         self.options = options
+        """How it was opened."""
         self.message_class = message_class
-        """None for a subscriber to any type."""
+        """The class of its messages; None for a subscriber to any type."""
+        self.callback = callback
+        """What is called with each message; None if they are to be taken."""
         self._subscription = subscription
         self._md5sum = "*" if message_class is None else message_class._md5sum
-        self._decode: Decoder = self._decoder()
+        self._decode: Decoder = decoder_for(
+            message_class, context.peer_definitions, raw=options.raw, views=options.views
+        )
         # Where there is nothing to choose, the codec itself: a call less for each message.
         plain = message_class is not None and not options.raw and not options.views
         self._decode_bytes = message_class._decode if message_class and plain else None
         self._queue: deque[Received] = deque()
         self._newest: Received | None = None
         self._arrived = Waiters()
+        self._on_arrival: tuple[Callable[[], object], ...] = ()
         # With overflow="block": what was read from a socket before it could be paused,
         # in order, and how far into it we are.
         self._backlog: deque[tuple[IncomingLink, list[Received], int]] = deque()
+        self._awaits = callback is not None and _is_coroutine_function(callback)
+        self._at_once = None if self._awaits else callback
+
+    def _begin(self) -> None:
+        """It is open: have messages taken, if that is not left to the user."""
+        if self._awaits:
+            self._context.spawn(self._take_all, name=f"callback of subscriber {self.name}")
 
     # what it is
 
@@ -137,6 +133,13 @@ class Subscriber(Role, Generic[M]):
         return self.stats.dropped
 
     @property
+    def next_received(self) -> Time | None:
+        """When the message that is taken next was received; None while none waits."""
+        if not self._queue and self._backlog:
+            self._refill()
+        return Time.from_nsec(self._queue[0][0].received) if self._queue else None
+
+    @property
     def latest(self) -> M | None:
         """The newest message received, taken from the queue or not; None before the first.
 
@@ -146,6 +149,11 @@ class Subscriber(Role, Generic[M]):
             return None
         message: M = self._decode(self._newest)
         return message
+
+    @property
+    def latest_event(self) -> MessageEvent[M] | None:
+        """The same with the time of receipt and the sender."""
+        return None if self._newest is None else self._event(self._newest)
 
     async def wait_for_publishers(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` publishers are connected.
@@ -159,9 +167,43 @@ class Subscriber(Role, Generic[M]):
                 await self._subscription.changed.wait()
                 self._check_open()
 
+    async def wait_for_messages(self, n: int = 1, *, timeout: float | None = None) -> None:
+        """Wait until ``n`` messages are in the queue, and take none of them.
+
+        Raises :class:`ValueError` for more than ``queue_size``, :class:`TimeoutError` after
+        ``timeout`` seconds, and :class:`~aioros1.ClosedError`.
+        """
+        self._check_queued()
+        if n > self.options.queue_size:
+            raise ValueError(
+                f"subscriber {self.name}: {n} messages never fit into a queue of "
+                f"{self.options.queue_size}"
+            )
+        async with deadline(timeout, f"subscriber {self.name}: {n} messages did not come"):
+            while self.queued < n:
+                if self._backlog:
+                    self._refill()
+                    continue
+                await self._arrived.wait()
+                self._check_open()
+
+    def add_arrival_callback(self, function: Callable[[], object]) -> None:
+        """Call ``function()`` whenever messages have come into the queue, and when the
+        subscriber is closed.
+
+        It is called in the event loop, where the messages arrive: it has to return soon, and
+        must not raise. It is for who waits for several subscribers at a time.
+        """
+        self._on_arrival += (function,)
+
+    def remove_arrival_callback(self, function: Callable[[], object]) -> None:
+        """Call it no more. Does nothing for a function that was not added."""
+        self._on_arrival = tuple(each for each in self._on_arrival if each != function)
+
     # taking messages
 
     def __aiter__(self) -> Self:
+        self._check_queued()
         return self
 
     async def __anext__(self) -> M:
@@ -197,6 +239,7 @@ class Subscriber(Role, Generic[M]):
         if timeout is not None:
             async with deadline(timeout, f"subscriber {self.name}: no message came"):
                 return await self.get()
+        self._check_queued()
         while True:
             self._check_open()
             item = self._take()
@@ -213,6 +256,7 @@ class Subscriber(Role, Generic[M]):
     def get_nowait(self) -> M:
         """The next message. Raises :class:`asyncio.QueueEmpty` if none has come."""
         self._check_open()
+        self._check_queued()
         while (item := self._take()) is not None:
             try:
                 message: M = self._decode(item)
@@ -222,30 +266,50 @@ class Subscriber(Role, Generic[M]):
                 return message
         raise asyncio.QueueEmpty(f"subscriber {self.name}: no message has come")
 
-    def events(self) -> _Events[M]:
+    def peek(self) -> MessageEvent[M] | None:
+        """The message that is taken next, which stays in the queue; None while none waits."""
+        self._check_queued()
+        if not self._queue and self._backlog:
+            self._refill()
+        while self._queue:
+            try:
+                return self._event(self._queue[0])
+            except DeserializationError as error:
+                self._queue.popleft()
+                self._skip(error)
+        return None
+
+    def events(self) -> AsyncIterator[MessageEvent[M]]:
         """Iterate as the subscriber itself does, over :class:`MessageEvent`."""
+        self._check_queued()
         return _Events(self)
 
     async def _next_event(self) -> MessageEvent[M]:
-        while True:
-            item = self._take()
-            if item is None:
-                if not self._is_open:
-                    raise StopAsyncIteration
-                await self._arrived.wait()
-                continue
-            batch, start, stop = item
+        while (item := await self._next_item()) is not None:
             try:
-                message: M = self._decode(item)
+                return self._event(item)
             except DeserializationError as error:
                 self._skip(error)
-                continue
-            return MessageEvent(
-                message,
-                batch.link.info.header,
-                Time.from_nsec(batch.received),
-                bytes(batch.data[start:stop]),
-            )
+        raise StopAsyncIteration
+
+    async def _next_item(self) -> Received | None:
+        """Take a message; wait for one. None once the subscriber is closed."""
+        while (item := self._take()) is None and self._is_open:
+            await self._arrived.wait()
+        return item
+
+    def _event(self, item: Received) -> MessageEvent[M]:
+        batch, start, stop = item
+        return MessageEvent(
+            self._decode(item),
+            batch.link.info.header,
+            Time.from_nsec(batch.received),
+            bytes(batch.data[start:stop]),
+        )
+
+    def _check_queued(self) -> None:
+        if self.callback is not None:
+            raise TypeError(f"subscriber {self.name} has a callback, which gets all messages")
 
     def _take(self) -> Received | None:
         if not self._queue and self._backlog:
@@ -256,15 +320,8 @@ class Subscriber(Role, Generic[M]):
         self.stats.errors += 1
         # The first one is worth a warning; a publisher that sends nothing else is not
         # worth one for each.
-        log = self._node.log.warning if self.stats.errors == 1 else self._node.log.debug
+        log = self._context.log.warning if self.stats.errors == 1 else self._context.log.debug
         log("subscriber %s: a message was skipped: %s", self.name, error)
-
-    def _decoder(self) -> Decoder:
-        if self.options.raw:
-            return _raw
-        if self.message_class is not None:
-            return _decoder_of(self.message_class, self.options.views)
-        return _AnyDecoder(self._node.peer_definitions, self.options.views)
 
     # being filled
 
@@ -277,9 +334,12 @@ class Subscriber(Role, Generic[M]):
         stats = self.stats
         stats.messages += len(frames)
         stats.bytes += stop - frames[0][1] + 4
+        self._newest = frames[-1]
+        if self._at_once is not None:
+            self._call(self._at_once, frames)
+            return
         queue, size = self._queue, self.options.queue_size
         room = size - len(queue)
-        self._newest = frames[-1]
         if len(frames) <= room and not self._backlog:
             queue.extend(frames)
         elif self.options.overflow == "drop_oldest":
@@ -299,6 +359,8 @@ class Subscriber(Role, Generic[M]):
             self._backlog.append((link, frames, 0))
             self._refill()
         self._arrived.wake()
+        for function in self._on_arrival:
+            function()
 
     def _refill(self) -> None:
         """Move what waits into the queue, and read on from connections that are done."""
@@ -315,19 +377,58 @@ class Subscriber(Role, Generic[M]):
             else:
                 link.resume()
 
+    # the callback
+
+    def _call(self, callback: Callback, frames: list[Received]) -> None:
+        """Call a plain function with each message."""
+        decode = self._decode
+        for item in frames:
+            if not self._is_open:
+                return  # it was closed from within
+            try:
+                message = decode(item)
+            except DeserializationError as error:
+                self._skip(error)
+                continue
+            try:
+                result = callback(message)
+                if result is not None and inspect.isawaitable(result):
+                    _refuse(result)
+            except Exception as error:  # the user's code; what becomes of it is an option
+                self._context.user_error(error, f"the callback of subscriber {self.name}")
+
+    async def _take_all(self) -> None:
+        """Await a coroutine function for each message."""
+        callback: Any = self.callback
+        while (item := await self._next_item()) is not None:
+            try:
+                message = self._decode(item)
+            except DeserializationError as error:
+                self._skip(error)
+                continue
+            try:
+                await callback(message)
+            except Exception as error:  # the user's code; what becomes of it is an option
+                self._context.user_error(error, f"the callback of subscriber {self.name}")
+
     # the end
 
     def _abort(self) -> None:
         super()._abort()
-        self._arrived.wake()
+        self._wake_all()
         self._subscription.changed.wake()
 
     async def _close(self) -> None:
         self._queue.clear()
         while self._backlog:
             self._backlog.popleft()[0].resume()
+        self._wake_all()
+        await self._subscription.leave(self)
+
+    def _wake_all(self) -> None:
         self._arrived.wake()
-        await self._node._roles.close_subscriber(self, self._subscription)
+        for function in self._on_arrival:
+            function()
 
 
 class _Events(Generic[M]):
@@ -342,61 +443,19 @@ class _Events(Generic[M]):
     async def __anext__(self) -> MessageEvent[M]:
         return await self._subscriber._next_event()
 
-
-def _raw(item: Received) -> bytes:
-    batch, start, stop = item
-    return bytes(batch.data[start:stop])
+    def __repr__(self) -> str:
+        return f"<events of {self._subscriber!r}>"
 
 
-def _decoder_of(cls: type[Message], views: bool) -> Decoder:
-    """What turns a frame into a message; small frames lie in bytes, large ones in a view."""
-    small, large, with_views = cls._decode, cls._decode_view, cls._decode_views
-
-    def decode_views(item: Received) -> Any:
-        batch, start, stop = item
-        return with_views(memoryview(batch.data), start, stop)
-
-    def decode(item: Received) -> Any:
-        batch, start, stop = item
-        data = batch.data
-        if isinstance(data, bytes):
-            return small(data, start, stop)
-        return large(data, start, stop)
-
-    return decode_views if views else decode
+def _is_coroutine_function(callback: Callback) -> bool:
+    call = getattr(callback, "__call__", None)  # noqa: B004 - of an object that is called
+    return inspect.iscoroutinefunction(callback) or inspect.iscoroutinefunction(call)
 
 
-class _AnyDecoder:
-    """Decodes every publisher's messages from that publisher's own definition."""
-
-    def __init__(self, store: MessageStore, views: bool) -> None:
-        self._store = store
-        self._views = views
-        # Weak, because publishers come and go and the subscriber stays.
-        self._decoders: WeakKeyDictionary[IncomingLink, Decoder] = WeakKeyDictionary()
-
-    def __call__(self, item: Received) -> Any:
-        link = item[0].link
-        decoder = self._decoders.get(link)
-        if decoder is None:
-            decoder = self._decoders[link] = self._decoder_for(link.offer)
-        return decoder(item)
-
-    def _decoder_for(self, offer: TopicOffer) -> Decoder:
-        try:
-            cls = self._store.add_definition(offer.type, offer.definition)
-        except (MessageError, InvalidNameError) as error:
-            return _undecodable(f"the publisher's definition of {offer.type}: {error}")
-        if offer.md5sum not in ("*", cls._md5sum):
-            return _undecodable(
-                f"the publisher's definition of {offer.type} has md5sum {cls._md5sum}, "
-                f"but it announced {offer.md5sum}"
-            )
-        return _decoder_of(cls, self._views)
-
-
-def _undecodable(why: str) -> Decoder:
-    def decode(item: Received) -> NoReturn:
-        raise DeserializationError(why)
-
-    return decode
+def _refuse(result: Awaitable[object]) -> None:
+    if inspect.iscoroutine(result):
+        result.close()  # Python warns of one that is never awaited
+    raise TypeError(
+        f"a plain function returned an awaitable, {result!r:.100}: nobody awaits it; make the "
+        "callback `async def`"
+    )

@@ -9,13 +9,16 @@ tries again, with growing delays, for as long as the master lists that publisher
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+import builtins
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, Protocol
 
 from aioros1.connection import ConnectionInfo
-from aioros1.errors import HandshakeError, PeerError
-from aioros1.events import PeerConnected, PeerDisconnected
+from aioros1.core.context import Context
+from aioros1.core.shared import Shared
+from aioros1.errors import HandshakeError, Md5MismatchError, PeerError
 from aioros1.net.backoff import Backoff
+from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.waiting import Waiters
@@ -23,10 +26,10 @@ from aioros1.wire.handshake import TopicClient, TopicOffer
 from aioros1.xmlrpc.node_proxy import NodeProxy
 
 if TYPE_CHECKING:
-    from aioros1.node import Node
-    from aioros1.topics.subscriber import Subscriber
+    from aioros1.idl import Message
+    from aioros1.topics.options import SubscriberOptions
 
-__all__ = ["Subscription"]
+__all__ = ["OnReceived", "Subscription"]
 
 _GRACE = 1.0
 """Seconds without a byte, after which a connection to a publisher that has left the
@@ -34,78 +37,92 @@ master's list is closed. A publisher that ends closes its connections itself, an
 it sent before is still on its way when the master announces that it is gone."""
 
 
-class Subscription:
+class Subscribing(Protocol):
+    """A subscriber, as its subscription sees it."""
+
+    options: SubscriberOptions
+
+    @property
+    def message_class(self) -> type[Message] | None: ...
+    @property
+    def type(self) -> str: ...
+    @property
+    def md5sum(self) -> str: ...
+    @property
+    def definition(self) -> str: ...
+
+    def _offer(self, frames: list[Received]) -> None:
+        """Take frames, all of one link."""
+
+
+class Subscription(Shared[Subscribing]):
     """One subscribed topic of one node."""
 
-    def __init__(self, node: Node, topic: str) -> None:
-        self.name = topic
-        self.subscribers: tuple[Subscriber[Any], ...] = ()
+    kind = "subscriber"
+
+    def __init__(
+        self,
+        context: Context,
+        topic: str,
+        table: dict[str, Subscription],
+        local: LocalTransports,
+    ) -> None:
+        super().__init__(context, topic, table)
         self.changed = Waiters()
         """Woken when a connection comes or goes."""
-        self._node = node
+        self.on_received: OnReceived | None = None
+        """Is called with all that is received, before the subscribers get it."""
+        self._local = local
         self._followers: dict[str, _Follower] = {}
         self._links: tuple[IncomingLink, ...] = ()
         self._updates = 0
-        self.registration = node._roles.registration(
-            "subscriber", topic, self._register, self._unregister
-        )
 
     @property
     def type(self) -> str:
         """What the subscribers agree on: ``*`` if none of them names a type."""
-        return next((sub.type for sub in self.subscribers if sub.type != "*"), "*")
-
-    @property
-    def links(self) -> tuple[IncomingLink, ...]:
-        return self._links
+        return next((sub.type for sub in self.roles if sub.type != "*"), "*")
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
+        """The connections to its publishers."""
         return tuple(link.info for link in self._links)
 
     @property
     def publisher_count(self) -> int:
+        """How many publishers are connected."""
         return len(self._links)
-
-    def wanted(self) -> TopicOffer:
-        """What a publisher is told when we connect."""
-        for sub in self.subscribers:
-            if sub.type != "*":
-                return TopicOffer(self.name, sub.type, sub.md5sum, sub.definition)
-        return TopicOffer(self.name, "*", "*", "")
 
     @property
     def has_header(self) -> bool:
         """Whether its messages begin with a header, as far as the subscribers know them."""
-        classes = [sub.message_class for sub in self.subscribers]
+        classes = [sub.message_class for sub in self.roles]
         return any(cls is not None and cls._has_header for cls in classes)
 
-    @property
-    def is_used(self) -> bool:
-        return bool(self.subscribers)
+    def check_type(self, message_class: builtins.type[Message]) -> None:
+        """Raise :class:`~aioros1.Md5MismatchError` for a type that the subscribers, of whom
+        each may take any, do not agree on."""
+        for sub in self.roles:
+            ours = sub.message_class
+            if ours is not None and ours._md5sum != message_class._md5sum:
+                raise Md5MismatchError(
+                    f"{self._context.name} subscribes to {self.name} as {ours._type} with "
+                    f"md5sum {ours._md5sum} already, not as {message_class._type} with "
+                    f"md5sum {message_class._md5sum}"
+                )
 
-    # the subscribers
-
-    def add(self, subscriber: Subscriber[Any]) -> None:
-        """One more; it gets what publishers that are connected already have latched."""
-        self.subscribers += (subscriber,)
-        for link in self._links:
-            if link.latched is not None:
-                subscriber._offer([link.latched])
-
-    def remove(self, subscriber: Subscriber[Any]) -> None:
-        """One less; with the last one go the connections."""
-        self.subscribers = tuple(each for each in self.subscribers if each is not subscriber)
-        self.changed.wake()
-        if not self.subscribers:
-            self.close()
+    def wanted(self) -> TopicOffer:
+        """What a publisher is told when we connect."""
+        for sub in self.roles:
+            if sub.type != "*":
+                return TopicOffer(self.name, sub.type, sub.md5sum, sub.definition)
+        return TopicOffer(self.name, "*", "*", "")
 
     # the publishers
 
     def update(self, uris: Iterable[str]) -> None:
         """Follow exactly these publishers, as the master has announced."""
         self._updates += 1
-        if not self.subscribers:
+        if not self.roles:
             return
         # A dict and not a set: the order of the master is kept, doubles are dropped.
         wanted = dict.fromkeys(uris)
@@ -116,29 +133,25 @@ class Subscription:
             if follower is not None:
                 follower.stay()
                 continue
-            follower = self._followers[uri] = _Follower(self, self._node, uri)
-            follower.task = self._node._spawn(
-                follower.run, name=f"{self._node.name} follows {self.name} of {uri}"
+            follower = self._followers[uri] = _Follower(self, self._context, self._local, uri)
+            follower.task = self._context.spawn(
+                follower.run, name=f"{self._context.name} follows {self.name} of {uri}"
             )
 
     def follower_ended(self, uri: str) -> None:
         """Nothing comes from there any more."""
         self._followers.pop(uri, None)
 
-    def close(self) -> None:
-        """Drop all publishers at once."""
-        for follower in tuple(self._followers.values()):
-            follower.cancel()
-        self.changed.wake()
-
     def link_opened(self, link: IncomingLink) -> None:
+        """A publisher is connected."""
         self._links += (link,)
-        self._node._emit(PeerConnected("subscriber", self.name, link.info))
+        self._context.connections.add(self.kind, link, link.info)
         self.changed.wake()
 
     def link_closed(self, link: IncomingLink) -> None:
+        """A publisher is not connected any more."""
         self._links = tuple(other for other in self._links if other is not link)
-        self._node._emit(PeerDisconnected("subscriber", self.name, link.info, link.failure or ""))
+        self._context.connections.remove(link, link.failure or "")
         self.changed.wake()
 
     def deliver(self, frames: list[Received]) -> None:
@@ -146,34 +159,65 @@ class Subscription:
         link = frames[-1][0].link
         if link.offer.latching:
             link.latched = frames[-1]
-        if self._node._statistics is not None:
-            self._node._statistics.received(self, frames)
-        for sub in self.subscribers:
+        if self.on_received is not None:
+            self.on_received(self, frames)
+        for sub in self.roles:
             sub._offer(frames)
+
+    # the subscribers
+
+    def _join(self, role: Subscribing) -> None:
+        """It gets what publishers that are connected already have latched."""
+        super()._join(role)
+        for link in self._links:
+            if link.latched is not None:
+                role._offer([link.latched])
+
+    def _part(self, role: Subscribing) -> None:
+        """With the last one go the connections."""
+        super()._part(role)
+        self.changed.wake()
+        if not self.roles:
+            self.abort()
+
+    def abort(self) -> None:
+        """Drop all publishers at once."""
+        for follower in tuple(self._followers.values()):
+            follower.cancel()
+        self.changed.wake()
 
     # at the master
 
     async def _register(self) -> None:
-        node = self._node
+        context = self._context
         updates = self._updates
         for follower in self._followers.values():
             follower.forgotten()
-        uris = await node._registrar.register_subscriber(self.name, self.type, node.uri)
+        uris = await context.registrar.register_subscriber(
+            self.name, self.type, context.address.uri
+        )
         # An announcement that overtook this answer is newer than it.
         if updates == self._updates:
             self.update(uris)
 
     async def _unregister(self) -> None:
-        await self._node._registrar.unregister_subscriber(self.name, self._node.uri)
+        context = self._context
+        await context.registrar.unregister_subscriber(self.name, context.address.uri)
+
+
+OnReceived = Callable[[Subscription, list[Received]], None]
 
 
 class _Follower:
     """Keeps one connection to one publisher."""
 
-    def __init__(self, subscription: Subscription, node: Node, uri: str) -> None:
+    def __init__(
+        self, subscription: Subscription, context: Context, local: LocalTransports, uri: str
+    ) -> None:
         self.task: asyncio.Task[None] | None = None
         self._subscription = subscription
-        self._node = node
+        self._context = context
+        self._local = local
         self._uri = uri
         self._link: IncomingLink | None = None
         self._stir = asyncio.Event()
@@ -250,20 +294,19 @@ class _Follower:
 
     async def _connect(self) -> IncomingLink:
         """Connect as the publisher says; over TCP, if another way does not work."""
-        node = self._node
-        local = node._acceptor.local
+        context, local = self._context, self._local
         offers = local.offers() if self._tries_local else []
         answer = await self._request_topic([["TCPROS"], *offers])
         match answer:
             case ["TCPROS", str(host), int(port), *_] if 0 < port < 65536:
-                return await self._shake_hands(await connect(host, port, node.timeouts))
+                return await self._shake_hands(await connect(host, port, context.timeouts))
         if not offers:
             topic = self._subscription.name
             raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
         try:
             return await self._shake_hands(await local.connect(answer))
         except (OSError, TimeoutError) as error:
-            node.log.debug(
+            context.log.debug(
                 "subscriber %s: publisher at %s: %s; trying TCP",
                 *(self._subscription.name, self._uri, error),
             )
@@ -271,22 +314,22 @@ class _Follower:
         return await self._connect()
 
     async def _request_topic(self, protocols: list[list[str]]) -> list[Any]:
-        peer = NodeProxy(self._node._xmlrpc, self._uri, self._node.name)
+        peer = NodeProxy(self._context.xmlrpc, self._uri, self._context.name)
         return await peer.request_topic(self._subscription.name, protocols)
 
     async def _shake_hands(self, stream: Stream) -> IncomingLink:
-        node, subscription = self._node, self._subscription
+        context, subscription = self._context, self._subscription
         try:
             client = TopicClient(
                 stream.peer,
-                node.name,
+                context.name,
                 subscription.wanted(),
-                tcp_nodelay=any(sub.options.tcp_nodelay for sub in subscription.subscribers),
-                max_bytes=node.limits.header_bytes,
-                max_fields=node.limits.header_fields,
+                tcp_nodelay=any(sub.options.tcp_nodelay for sub in subscription.roles),
+                max_bytes=context.limits.header_bytes,
+                max_fields=context.limits.header_fields,
             )
             stream.writer.write(client.data_to_send())
-            await stream.receive_header(client, timeout=node.timeouts.handshake)
+            await stream.receive_header(client, timeout=context.timeouts.handshake)
             link = self._link = await self._open_link(stream, client)
         except BaseException:
             stream.abort()
@@ -294,15 +337,15 @@ class _Follower:
         return link
 
     async def _open_link(self, stream: Stream, client: TopicClient) -> IncomingLink:
-        node, subscription = self._node, self._subscription
+        context, subscription = self._context, self._subscription
         link = IncomingLink(
             stream,
             connection_info(stream, subscription.name, "i", self._uri, client.header),
             client.agreed,
             subscription.deliver,
             self._stir.set,
-            node._clock.nanoseconds,
-            max_bytes=node.limits.message_bytes,
+            context.clock.nanoseconds,
+            max_bytes=context.limits.message_bytes,
         )
         rest = await take_over(stream, link)
         subscription.link_opened(link)
@@ -335,6 +378,6 @@ class _Follower:
         """Log what went wrong, once until it is something else or went well for a while."""
         if text != self._complaint:
             self._complaint = text
-            self._node.log.warning(
+            self._context.log.warning(
                 "subscriber %s: publisher at %s: %s", self._subscription.name, self._uri, text
             )

@@ -1,0 +1,43 @@
+"""Where a node listens, as others are told."""
+
+from __future__ import annotations
+
+from aioros1.net.hosts import uri_host
+
+__all__ = ["Address"]
+
+
+class Address:
+    """The host and the ports of one node. The node fills them in while it starts."""
+
+    def __init__(self, node_name: str, host: str | None) -> None:
+        self._node_name = node_name
+        self.known_host = host
+        """What others are told to connect to; None until the node has found it."""
+        self.xmlrpc_port = 0
+        self.tcpros_port = 0
+
+    @property
+    def host(self) -> str:
+        """What others are told to connect to.
+
+        Raises :class:`RuntimeError` before the node has found it.
+        """
+        if self.known_host is None:
+            raise RuntimeError(f"node {self._node_name} has no address before it is started")
+        return self.known_host
+
+    @property
+    def uri(self) -> str:
+        """The URI of the slave API."""
+        return f"http://{uri_host(self.host)}:{self.xmlrpc_port}/"
+
+    @property
+    def tcpros(self) -> tuple[str, int]:
+        """Host and port for topics and services."""
+        return self.host, self.tcpros_port
+
+    @property
+    def tcpros_uri(self) -> str:
+        """The same for services, as the master is told."""
+        return f"rosrpc://{uri_host(self.host)}:{self.tcpros_port}"

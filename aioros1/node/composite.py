@@ -1,0 +1,192 @@
+"""The base of what is made of several roles of a node, and lives as long as it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Coroutine, Generator
+from types import TracebackType
+from typing import Any, Self
+
+from aioros1.errors import ClosedError
+from aioros1.node.node import Node
+
+__all__ = ["Composite"]
+
+
+class Composite:
+    """Several roles of one node, with tasks of their own, as one object.
+
+    Action clients, transform listeners and bag recorders are such, and yours may be::
+
+        class Relay(aioros1.Composite):
+            def __init__(self, node, source, target, type):
+                super().__init__(node, f"{source} to {target}")
+                self._topics = source, target, type
+
+            async def _open(self):
+                source, target, type = self._topics
+                self._pub = await self._own(self.node.advertise(target, type))
+                self._sub = await self._own(self.node.subscribe(source, type))
+                self._create_task(self._relay())
+
+            async def _relay(self):
+                async for message in self._sub:
+                    self._pub.publish(message)
+
+        async with Relay(node, "a", "b", "std_msgs/String"):
+            ...
+
+    The constructor does no I/O. ``async with x`` opens it and closes it at the end of the
+    block; ``await x`` opens it and returns it. It is closed by :meth:`close`, or with its
+    node, before the roles of that. Then its tasks are cancelled, and what it owns is closed,
+    the last first. If opening fails or is cancelled, what it had opened so far is closed.
+
+    Derived classes have the methods that begin with an underscore for themselves:
+    :meth:`_open`, :meth:`_close` and :meth:`_abort` are called and may be replaced,
+    :meth:`_own`, :meth:`_create_task` and :meth:`_check_open` are there to be used.
+    """
+
+    def __init__(self, node: Node, name: str = "") -> None:
+        if not isinstance(node, Node):
+            raise TypeError(f"{type(self).__name__}: expected a Node first, got {node!r}")
+        self._node = node
+        self._name = name
+        self._state = "new"
+        self._owned: list[Any] = []
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._closing: asyncio.Task[None] | None = None
+
+    @property
+    def node(self) -> Node:
+        """The node that it lives on."""
+        return self._node
+
+    @property
+    def name(self) -> str:
+        """What tells it from others of its kind."""
+        return self._name
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it can be used."""
+        return self._state == "open"
+
+    def __await__(self) -> Generator[Any, None, Self]:
+        return self._start().__await__()
+
+    async def __aenter__(self) -> Self:
+        return await self._start()
+
+    async def __aexit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        """Close it, with all that it owns.
+
+        You may call it any number of times. When the wait is cancelled, closing goes on.
+        """
+        if self._state == "new":
+            self._state = "closed"
+        if self._state in ("opening", "open"):
+            self._state = "closed"
+            context = self._node._context
+            self._closing = context.spawn(self._finish, name=f"close {self!r}")
+        if self._closing is not None:
+            await asyncio.wait({self._closing})
+
+    # for derived classes
+
+    async def _open(self) -> None:
+        """Open what it is made of. Called once."""
+
+    async def _close(self) -> None:
+        """Say what is to be said to others. All that it owns is still open."""
+
+    def _abort(self) -> None:
+        """The node has ended: wake up whoever waits here, tell nobody."""
+
+    async def _own(self, opening: Any) -> Any:
+        """Await what ``node.advertise`` and the like, or another composite, give; the open
+        object, which is closed with this one."""
+        member = await opening
+        self._owned.append(member)
+        return member
+
+    def _create_task(
+        self, coro: Coroutine[Any, Any, object], *, name: str | None = None
+    ) -> asyncio.Task[None]:
+        """Run a coroutine in a task that is cancelled when this is closed; otherwise as
+        :meth:`aioros1.Node.create_task`."""
+        if self._state not in ("opening", "open"):
+            coro.close()
+            raise self._closed_error()
+        task = self._node.create_task(coro, name=name)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return task
+
+    def _check_open(self) -> None:
+        """Raise :class:`~aioros1.ClosedError` unless it is open, and :class:`RuntimeError`
+        in another event loop than the node's."""
+        if self._state != "open":
+            raise self._closed_error()
+        self._node._context.check_loop()
+
+    # inside
+
+    async def _start(self) -> Self:
+        if self._state != "new":
+            raise RuntimeError(f"{self!r} was opened before; make a new one")
+        context = self._node._context
+        context.check_open()
+        self._state = "opening"
+        try:
+            await self._open()
+            if self._state != "opening":  # closed meanwhile
+                raise self._closed_error()
+            self._state = "open"
+            await context.admit(self, self._drop)
+        except BaseException:
+            self._state = "closed"
+            await self._release()
+            raise
+        return self
+
+    async def _finish(self) -> None:
+        try:
+            await self._close()
+        finally:
+            await self._release()
+
+    async def _release(self) -> None:
+        """Cancel the tasks, close what is owned, and leave the node."""
+        try:
+            current = asyncio.current_task()
+            tasks = [task for task in self._tasks if task is not current]
+            for task in tasks:
+                task.cancel()
+            if tasks:
+                await asyncio.wait(tasks)
+            while self._owned:
+                await self._owned.pop().close()
+        finally:
+            self._node._context.dismiss(self)
+
+    def _drop(self) -> None:
+        self._state = "closed"
+        self._abort()
+
+    def _closed_error(self) -> ClosedError:
+        reason = self._node.close_reason
+        why = f": the node was closed ({reason})" if reason is not None else ""
+        state = self._state if self._state in ("new", "opening") else "closed"
+        return ClosedError(f"{type(self).__name__} {self._name} is {state}, not open{why}")
+
+    def __repr__(self) -> str:
+        name = f" {self._name}" if self._name else ""
+        return f"<{type(self).__name__}{name} of {self._node.name}, {self._state}>"

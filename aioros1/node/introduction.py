@@ -1,0 +1,52 @@
+"""What a node says to its master, and asks it, once there is one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from aioros1.core.context import Context
+from aioros1.errors import MasterUnreachable
+from aioros1.node.sim_time import SimTime
+from aioros1.params.params import Params
+from aioros1.topics.topics import Topics
+
+__all__ = ["Introduction"]
+
+
+class Introduction:
+    """Sets the private parameters of the command line, and asks for the time to go by and
+    whether statistics are wanted."""
+
+    def __init__(
+        self,
+        context: Context,
+        topics: Topics,
+        params: Params,
+        sim_time: SimTime,
+        private_params: Mapping[str, Any],
+    ) -> None:
+        self._context = context
+        self._topics = topics
+        self._params = params
+        self._sim_time = sim_time
+        self._private_params = private_params
+
+    async def was_made(self) -> bool:
+        """Make it; whether the master was there long enough for that."""
+        params = self._params
+        try:
+            for key, value in self._private_params.items():
+                await params.set(f"~{key}", value)
+            has_statistics = await params.get("/enable_statistics", False) is True
+            await self._sim_time.ask()
+        except MasterUnreachable:
+            return False
+        # All that may fail, and is then done again, is behind us.
+        if has_statistics:
+            from aioros1.node.statistics import Statistics  # here, as hardly anybody wants it
+
+            context = self._context
+            statistics = Statistics(context, self._topics, params)
+            context.spawn(statistics.run, name=f"{context.name} statistics")
+        return True

@@ -1,0 +1,172 @@
+"""All parameters of one node."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from aioros1.core.context import Context
+from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.params.followed import FollowedParam
+from aioros1.params.subscriber import ParamSubscriber
+from aioros1.wire.xmlrpc import decode_response, encode_response
+
+__all__ = ["Params"]
+
+
+class Params:
+    """What a node asks the parameter server for, changes there, and follows."""
+
+    def __init__(self, context: Context) -> None:
+        self.followed: dict[str, FollowedParam] = {}
+        """By key, for as long as a subscriber uses them."""
+        self._context = context
+        self._cached: dict[str, ParamSubscriber] = {}
+        # Changes on their way to the master, for which nobody waits any more.
+        self._left_alone: set[asyncio.Future[Exception | None]] = set()
+
+    async def subscribe(self, key: str, default: Any) -> ParamSubscriber:
+        """See :meth:`aioros1.Node.subscribe_param`."""
+        context = self._context
+        key = self._key(key)
+        followed = self.followed.get(key)
+        if followed is None:
+            followed = FollowedParam(context, key, self.followed)
+        subscriber = ParamSubscriber(context, followed, default)
+        await followed.acquire(subscriber)
+        await context.admit(subscriber, subscriber._abort)
+        subscriber._begin()
+        return subscriber
+
+    async def get(self, key: str, default: Any = ...) -> Any:
+        """See :meth:`aioros1.Node.get_param`."""
+        key = self._key(key)
+        try:
+            return await self._context.master.get_param(key)
+        except MasterError as error:
+            if not error.is_refusal:
+                raise
+            if default is ...:
+                raise KeyError(key) from None
+            return default
+
+    async def set(self, key: str, value: Any) -> None:
+        """See :meth:`aioros1.Node.set_param`."""
+        key = self._key(key)
+        # What we tell is what arrives: a list for a tuple, and nothing that the caller can
+        # still change. Limits are for what others send.
+        document = encode_response(value, what=f"parameter {key}")
+        value = decode_response(document, max_values=sys.maxsize)
+        await self._change(key, value, lambda: self._context.master.set_param(key, value))
+
+    async def has(self, key: str) -> bool:
+        """See :meth:`aioros1.Node.has_param`."""
+        return await self._context.master.has_param(self._key(key))
+
+    async def delete(self, key: str) -> None:
+        """See :meth:`aioros1.Node.delete_param`."""
+        key = self._key(key)
+        try:
+            await self._change(key, {}, lambda: self._context.master.delete_param(key))
+        except MasterError as error:
+            if not error.is_refusal:
+                raise
+            raise KeyError(key) from None
+
+    async def search(self, key: str) -> str | None:
+        """See :meth:`aioros1.Node.search_param`."""
+        try:
+            return await self._context.master.search_param(key)
+        except MasterError as error:
+            if not error.is_refusal:
+                raise
+            return None
+
+    async def names(self) -> list[str]:
+        """See :meth:`aioros1.Node.get_param_names`."""
+        return await self._context.master.get_param_names()
+
+    async def get_cached(self, key: str, default: Any = ...) -> Any:
+        """See :meth:`aioros1.Node.get_param_cached`."""
+        resolved = self._key(key)
+        subscriber = self._cached.get(resolved)
+        if subscriber is None:
+            subscriber = await self.subscribe(resolved, ...)
+            # Somebody else may have done the same in the meantime.
+            if resolved in self._cached:
+                await subscriber.close()
+            subscriber = self._cached.setdefault(resolved, subscriber)
+        try:
+            return subscriber.value
+        except KeyError:
+            if default is ...:
+                raise
+            return default
+
+    def updated(self, key: str, value: Any) -> bool:
+        """Pass an update on to those whom it concerns; whether there are any."""
+        concerned = [followed for followed in self.followed.values() if followed.concerns(key)]
+        for followed in concerned:
+            followed.update(key, value)
+        return bool(concerned)
+
+    async def _change(
+        self, key: str, value: Any, tell_master: Callable[[], Awaitable[None]]
+    ) -> None:
+        """Change a parameter, in a task of the node.
+
+        Who is cancelled cannot know whether the master has got it. So it is not given up
+        half-way, which would leave those who follow the parameter here with another value
+        than the master has; and the next change must not overtake it.
+        """
+        while self._left_alone:
+            await asyncio.wait(self._left_alone)
+        outcome: asyncio.Future[Exception | None] = asyncio.get_running_loop().create_future()
+        task = self._context.spawn(
+            self._changing, outcome, key, value, tell_master, name=f"change {key}"
+        )
+        task.add_done_callback(lambda _: _end(outcome, key))
+        try:
+            await asyncio.wait((outcome,))
+        except asyncio.CancelledError:
+            if not outcome.done():
+                self._left_alone.add(outcome)
+                outcome.add_done_callback(self._left_alone.discard)
+            raise
+        if (error := outcome.result()) is not None:
+            raise error
+
+    async def _changing(
+        self,
+        outcome: asyncio.Future[Exception | None],
+        key: str,
+        value: Any,
+        tell_master: Callable[[], Awaitable[None]],
+    ) -> None:
+        try:
+            await tell_master()
+            # The master tells everybody but the one who did it.
+            self.updated(key, value)
+        except Exception as error:
+            if isinstance(error, MasterUnreachable):
+                self._doubt(key)
+            outcome.set_result(error)
+        else:
+            outcome.set_result(None)
+
+    def _doubt(self, key: str) -> None:
+        """It may have changed: those whom it concerns have to ask, with the next heartbeat."""
+        for followed in self.followed.values():
+            if followed.concerns(key):
+                followed.registration.forget()
+
+    def _key(self, key: str) -> str:
+        self._context.check_open()
+        return "/" if key == "/" else self._context.resolve_name(key)
+
+
+def _end(outcome: asyncio.Future[Exception | None], key: str) -> None:
+    if not outcome.done():  # the node has ended, perhaps before the task began
+        outcome.set_result(ClosedError(f"parameter {key}: the node is closed"))

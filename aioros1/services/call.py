@@ -1,0 +1,73 @@
+"""A service call that waits for its answer."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from aioros1.errors import ClosedError, ServiceError
+from aioros1.services.side import Side
+
+if TYPE_CHECKING:
+    from aioros1.idl.genpy_types import GenpyMessage
+
+__all__ = ["ServiceCall"]
+
+Q = TypeVar("Q")
+A = TypeVar("A")
+
+
+class ServiceCall(Generic[Q, A]):
+    """A call that waits for its answer; an item of ``async for call in provider``."""
+
+    __slots__ = ("_answer", "_closed", "_side", "header", "request")
+
+    def __init__(self, request: Q, header: Mapping[str, str], side: Side) -> None:
+        self.request = request
+        """The request; bytes for a raw provider."""
+        self.header = header
+        """The caller's connection header; ``header["callerid"]`` is its name."""
+        self._side = side
+        # An error is a result here, as nobody may ask for the answer any more.
+        self._answer: asyncio.Future[bytes | ServiceError] = (
+            asyncio.get_running_loop().create_future()
+        )
+        self._closed: ClosedError | None = None
+
+    @property
+    def caller_id(self) -> str:
+        """The name of the calling node."""
+        return self.header["callerid"]
+
+    async def reply(
+        self, response: A | GenpyMessage | Mapping[str, Any] | None = None, /, **fields: Any
+    ) -> None:
+        """Answer with a response, a dict of its fields, or its ``fields``; with bytes for a
+        raw provider.
+
+        Raises :class:`~aioros1.SerializationError` for values that do not fit; the call
+        then still waits. Raises :class:`~aioros1.ClosedError` once the provider is closed,
+        which has answered for it, and :class:`RuntimeError` for a second answer. A call
+        whose caller is gone is answered like any other.
+        """
+        side = self._side
+        self._settle(side.frame(side.outgoing(response, fields)))
+
+    async def fail(self, text: str) -> None:
+        """Answer that the call has failed; the caller gets ``text``."""
+        self._settle(ServiceError(text))
+
+    def _settle(self, answer: bytes | ServiceError) -> None:
+        if self._answer.done():
+            raise self._closed or RuntimeError("the call is answered already")
+        self._answer.set_result(answer)
+
+    def _close(self, error: ClosedError) -> None:
+        if not self._answer.done():
+            self._closed = error
+            self._answer.set_result(ServiceError("the service is shut down"))
+
+    def __repr__(self) -> str:
+        state = "answered" if self._answer.done() else "waits for an answer"
+        return f"<ServiceCall of {self.caller_id}, {state}>"

@@ -1,0 +1,187 @@
+"""A service that a node provides, as the graph sees it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
+from aioros1.core.shared import Shared
+from aioros1.core.stats import RoleStats
+from aioros1.errors import ClosedError, ServiceError
+from aioros1.net.service_link import ServiceLink
+from aioros1.net.tcpros import Stream, connection_info, take_over
+from aioros1.services.call import ServiceCall
+from aioros1.services.provider_connection import Handler, ProviderConnection
+from aioros1.services.side import Side
+from aioros1.waiting import Waiters
+from aioros1.wire.handshake import Server, ServiceOffer
+from aioros1.wire.service import REQUEST_HEAD
+
+__all__ = ["Provision"]
+
+
+class Providing(Protocol):
+    """A provider, as its provision sees it."""
+
+    stats: RoleStats
+
+    @property
+    def is_open(self) -> bool: ...
+
+    async def close(self) -> None: ...
+
+
+class Provision(Shared[Providing]):
+    """One provided service of one node, and the connections of its callers.
+
+    ``offer`` is what callers are told, ``side`` how requests are read and responses written.
+    Without ``handler`` calls wait in :attr:`calls`. At most ``max_concurrency`` calls of the
+    handler run at a time.
+    """
+
+    kind = "service"
+
+    def __init__(
+        self,
+        context: Context,
+        table: dict[str, Provision],
+        offer: ServiceOffer,
+        side: Side,
+        handler: Handler[Any, Any] | None,
+        max_concurrency: int | None,
+    ) -> None:
+        super().__init__(context, offer.service, table)
+        self.side = side
+        self.handler = handler
+        self.slots = None if max_concurrency is None else asyncio.Semaphore(max_concurrency)
+        """What calls of the handler have to get hold of, if their number is bounded."""
+        self.provider: Providing | None = None
+        """The one role that uses it, or has used it."""
+        self.stats = RoleStats()
+        self.bytes_received = 0
+        self.bytes_sent = 0
+        self.calls: deque[ServiceCall[Any, Any]] = deque()
+        """Calls that wait for somebody to take them."""
+        self.arrived = Waiters()
+        """Woken when a call has come, and when none comes any more."""
+        self._offer = offer
+        self._unanswered: set[ServiceCall[Any, Any]] = set()
+        self._links: dict[ServiceLink, ConnectionInfo] = {}
+        self._served = Waiters()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether calls are answered."""
+        return self.provider is not None and self.provider.is_open
+
+    @property
+    def patience(self) -> float:
+        """Seconds that a caller of one call may take for its request."""
+        return self._context.timeouts.handshake
+
+    @property
+    def connections(self) -> tuple[ConnectionInfo, ...]:
+        """The connections of its callers."""
+        return tuple(self._links.values())
+
+    async def serve(self, stream: Stream, server: Server) -> None:
+        """Answer the calls that come over one connection, whose header is ``server``'s.
+
+        Raises :class:`~aioros1.HandshakeError`, :class:`ConnectionError` and
+        :class:`TimeoutError` when nothing comes of it.
+        """
+        context = self._context
+        timeouts = context.timeouts
+        header = server.accept_service(context.name, self._offer)
+        await stream.write(header, stall=timeouts.stall)
+        if server.probe:
+            return
+        link = ServiceLink(
+            stream,
+            head=REQUEST_HEAD,
+            max_bytes=context.limits.message_bytes,
+            patience=timeouts.handshake,
+            stall=timeouts.stall,
+        )
+        rest = await take_over(stream, link)
+        if rest:
+            link.data_received(rest)
+        info = connection_info(stream, self.name, "b", server.caller_id, server.header)
+        self._links[link] = info
+        context.connections.add(self.kind, link, info)
+        reason = ""
+        try:
+            await ProviderConnection(self, link, server, info).run()
+        except (OSError, TimeoutError) as error:
+            reason = str(error)
+        finally:
+            del self._links[link]
+            self._served.wake()
+            context.connections.remove(link, reason)
+
+    async def defer(self, request: Any, header: Mapping[str, str]) -> bytes:
+        """Leave a call to whoever iterates the provider; the response, as a frame.
+
+        Raises :class:`~aioros1.ServiceError` when that is an error, or nobody answers.
+        """
+        if not self.is_open:
+            raise ServiceError("the service is shut down")
+        call: ServiceCall[Any, Any] = ServiceCall(request, header, self.side)
+        self.calls.append(call)
+        self._unanswered.add(call)
+        self.arrived.wake()
+        try:
+            answer = await call._answer
+        finally:
+            self._unanswered.discard(call)
+        if isinstance(answer, ServiceError):
+            raise answer
+        return answer
+
+    def log_error(self, what: str, error: Exception) -> None:
+        """Log what has failed, with its traceback."""
+        self._context.log.error("service %s: %s", self.name, what, exc_info=error)
+
+    def end_calls(self, error: ClosedError) -> None:
+        """Let no call wait any longer; who answers one later gets ``error``."""
+        self.calls.clear()
+        self.arrived.wake()
+        for call in self._unanswered:
+            call._close(error)
+
+    def abort(self) -> None:
+        for link in self._links:
+            link.abort()
+
+    def _join(self, role: Providing) -> None:
+        super()._join(role)
+        self.provider = role
+        self.stats = role.stats
+
+    async def _disconnect(self) -> None:
+        """Close connections as they become idle, and when it takes too long the rest."""
+        for link in self._links:
+            link.stop_reading()
+        try:
+            async with asyncio.timeout(self._context.timeouts.close):
+                while self._links:
+                    await self._served.wait()
+        except TimeoutError:
+            pass
+        finally:
+            self.abort()
+
+    # at the master
+
+    async def _register(self) -> None:
+        context = self._context
+        address = context.address
+        await context.registrar.register_service(self.name, address.tcpros_uri, address.uri)
+
+    async def _unregister(self) -> None:
+        context = self._context
+        await context.registrar.unregister_service(self.name, context.address.tcpros_uri)

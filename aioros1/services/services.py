@@ -1,0 +1,132 @@
+"""All services of one node."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from aioros1.core.context import Context
+from aioros1.errors import HandshakeError
+from aioros1.net.tcpros import Stream
+from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
+from aioros1.services.lookup import probe, service_class_of, type_of
+from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
+from aioros1.services.provider_connection import Handler
+from aioros1.services.provision import Provision
+from aioros1.services.side import providers_side, raw_side
+from aioros1.waiting import Deadlines, deadline
+from aioros1.wire.handshake import Server, ServiceOffer
+
+__all__ = ["Services"]
+
+
+class Services:
+    """What a node provides, and calls."""
+
+    def __init__(self, context: Context) -> None:
+        self.provisions: dict[str, Provision] = {}
+        """By name, for as long as a provider uses them."""
+        self._context = context
+        self._probes = Deadlines()  # the questions to providers that are on their way
+
+    async def advertise(
+        self,
+        name: str,
+        type: Any,
+        handler: Handler[Any, Any] | None,
+        options: ServiceProviderOptions,
+    ) -> ServiceProvider[Any, Any]:
+        """See :meth:`aioros1.Node.advertise_service`."""
+        context = self._context
+        context.check_open()
+        name = context.resolve_name(name)
+        is_any = options.raw and type == "*"
+        service_class = None if is_any else context.store.resolve_srv(type)
+        if handler is not None and not callable(handler):
+            raise TypeError(f"service {name}: the handler is a function, got {handler!r}")
+        while (other := self.provisions.get(name)) is not None and other.provider is not None:
+            if other.is_open:
+                raise ValueError(f"{context.name} provides service {name} already")
+            await other.provider.close()  # which goes on, when it was cancelled before
+        if service_class is None or options.raw:
+            side = raw_side(f"service {name}")
+        else:
+            side = providers_side(service_class)
+        if service_class is None:
+            offer = ServiceOffer(name, "*", "*")
+        else:
+            offer = ServiceOffer(name, service_class._type, service_class._md5sum)
+        provision = Provision(
+            context, self.provisions, offer, side, handler, options.max_concurrency
+        )
+        provider: ServiceProvider[Any, Any] = ServiceProvider(
+            context, provision, service_class, options
+        )
+        try:
+            await provision.acquire(provider)
+        except BaseException:
+            provider._abort()  # somebody may have called already
+            raise
+        return await context.admit(provider, provider._abort)
+
+    async def caller(
+        self, name: str, type: Any, options: ServiceCallerOptions
+    ) -> ServiceCaller[Any, Any]:
+        """See :meth:`aioros1.Node.service_caller`."""
+        context = self._context
+        context.check_open()
+        name = context.resolve_name(name)
+        if type != "*":
+            service_class = context.store.resolve_srv(type)
+        elif options.raw:
+            service_class = None
+        else:
+            async with deadline(options.timeout, f"service {name}: no answer"):
+                header = await probe(context, name, self._probes)
+            service_class = service_class_of(context, name, header)
+        caller: ServiceCaller[Any, Any] = ServiceCaller(context, name, service_class, options)
+        return await context.admit(caller, caller._abort)
+
+    async def call(
+        self,
+        name: str,
+        type: Any,
+        request: Any,
+        timeout: float | None,
+        fields: Mapping[str, Any],
+    ) -> Any:
+        """See :meth:`aioros1.Node.call`."""
+        async with (
+            deadline(timeout, f"service {self._context.resolve_name(name)}: no answer"),
+            await self.caller(name, type, ServiceCallerOptions()) as caller,
+        ):
+            return await caller.call(request, **fields)
+
+    async def wait_for(self, name: str, timeout: float | None) -> None:
+        """See :meth:`aioros1.Node.wait_for_service`."""
+        # Of whatever type: to be asked whether it is there, a provider need not know.
+        async with await self.caller(name, "std_srvs/Empty", ServiceCallerOptions()) as caller:
+            await caller.wait_for_service(timeout=timeout)
+
+    async def type_of(self, name: str) -> str:
+        """See :meth:`aioros1.Node.service_type`."""
+        context = self._context
+        context.check_open()
+        name = context.resolve_name(name)
+        return type_of(name, await probe(context, name, self._probes))
+
+    async def serve(self, stream: Stream, server: Server) -> None:
+        """Serve the caller that has connected, whose header is ``server``'s.
+
+        Raises :class:`~aioros1.HandshakeError`, :class:`ConnectionError` and
+        :class:`TimeoutError`.
+        """
+        provision = self.provisions.get(server.service or "")
+        if provision is None:
+            name = self._context.name
+            raise HandshakeError(name, f"{name} has no service {server.service}")
+        await provision.serve(stream, server)
+
+    def abort(self) -> None:
+        """End all questions at once."""
+        self._probes.expire()

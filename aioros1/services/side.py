@@ -1,0 +1,79 @@
+"""What one side of a service reads and writes: requests or responses, as messages or bytes."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from aioros1.errors import SerializationError
+from aioros1.idl.message_from import message_from
+
+if TYPE_CHECKING:
+    from aioros1.idl import Service
+
+__all__ = ["Side", "callers_side", "providers_side", "raw_side"]
+
+_pack_length = struct.Struct("<I").pack
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """The codec of one side of a service."""
+
+    decode: Callable[[bytes, int, int], Any]
+    """What lies in some bytes, from a position to an end.
+
+    Raises :class:`~aioros1.DeserializationError`."""
+
+    outgoing_class: type
+    """The class of what can be framed as it is."""
+
+    frame: Callable[[Any], bytes]
+    """What is sent for it, behind its length."""
+
+    outgoing: Callable[[Any, Mapping[str, Any]], Any]
+    """What is meant by a message, a dict or nothing, and by fields.
+
+    Raises :class:`~aioros1.SerializationError` and :class:`TypeError`."""
+
+
+def providers_side(service_class: type[Service[Any, Any]]) -> Side:
+    """Requests come in, responses go out."""
+    response_class = service_class._response_class
+
+    def outgoing(value: Any, fields: Mapping[str, Any]) -> Any:
+        return message_from(response_class, value, fields)
+
+    decode = service_class._request_class._decode
+    return Side(decode, response_class, response_class._frame, outgoing)
+
+
+def callers_side(service_class: type[Service[Any, Any]]) -> Side:
+    """Requests go out, responses come in."""
+    request_class = service_class._request_class
+
+    def outgoing(value: Any, fields: Mapping[str, Any]) -> Any:
+        return message_from(request_class, value, fields, "request")
+
+    decode = service_class._response_class._decode
+    return Side(decode, request_class, request_class._frame, outgoing)
+
+
+def raw_side(what: str) -> Side:
+    """Bytes come in, and bytes go out; nobody looks into them. ``what`` is named in errors."""
+
+    def outgoing(value: Any, fields: Mapping[str, Any]) -> bytes:
+        if value is None and not fields:
+            return b""
+        if fields or not isinstance(value, (bytes, bytearray, memoryview)):
+            got = ", ".join(fields) if fields else repr(value)
+            raise SerializationError(f"{what}: expected serialised bytes, got {got:.100}")
+        return bytes(value)
+
+    return Side(lambda data, start, stop: data[start:stop], bytes, _frame, outgoing)
+
+
+def _frame(data: bytes) -> bytes:
+    return _pack_length(len(data)) + data

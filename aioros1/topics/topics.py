@@ -1,0 +1,112 @@
+"""All topics of one node."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from aioros1.core.context import Context
+from aioros1.errors import HandshakeError
+from aioros1.net.local_transports import LocalTransports
+from aioros1.net.tcpros import Stream
+from aioros1.topics.options import PublisherOptions, SubscriberOptions
+from aioros1.topics.publication import Publication
+from aioros1.topics.publisher import Publisher
+from aioros1.topics.subscriber import Callback, Subscriber
+from aioros1.topics.subscription import OnReceived, Subscription
+from aioros1.waiting import deadline
+from aioros1.wire.handshake import Server
+
+__all__ = ["Topics"]
+
+
+class Topics:
+    """What a node publishes and subscribes to.
+
+    ``local`` are the ways past TCP on which subscriptions connect.
+    """
+
+    def __init__(self, context: Context, local: LocalTransports) -> None:
+        self.publications: dict[str, Publication] = {}
+        """By topic, for as long as a publisher uses them."""
+        self.subscriptions: dict[str, Subscription] = {}
+        """By topic, for as long as a subscriber uses them."""
+        self._context = context
+        self._local = local
+        self._on_received: OnReceived | None = None
+
+    async def advertise(self, topic: str, type: Any, options: PublisherOptions) -> Publisher[Any]:
+        """See :meth:`aioros1.Node.advertise`."""
+        context = self._context
+        context.check_open()
+        topic = context.resolve_name(topic)
+        message_class = context.store.resolve_msg(type)
+        publication = self.publications.get(topic)
+        if publication is not None:
+            publication.check_type(message_class)
+        # One whose publishers are being closed may be used again, but for another type.
+        if publication is None or publication.message_class._md5sum != message_class._md5sum:
+            publication = Publication(context, topic, self.publications, message_class)
+        publisher: Publisher[Any] = Publisher(context, publication, message_class, options)
+        await publication.acquire(publisher)
+        return await context.admit(publisher, publisher._abort)
+
+    async def subscribe(
+        self, topic: str, type: Any, callback: Callback | None, options: SubscriberOptions
+    ) -> Subscriber[Any]:
+        """See :meth:`aioros1.Node.subscribe`."""
+        context = self._context
+        context.check_open()
+        topic = context.resolve_name(topic)
+        any_type = type == "*" or getattr(type, "_type", None) == "*"
+        message_class = None if any_type else context.store.resolve_msg(type)
+        subscription = self.subscriptions.get(topic)
+        if subscription is None:
+            subscription = Subscription(context, topic, self.subscriptions, self._local)
+            subscription.on_received = self._on_received
+        if message_class is not None:
+            subscription.check_type(message_class)
+        subscriber: Subscriber[Any] = Subscriber(
+            context, subscription, message_class, callback, options
+        )
+        await subscription.acquire(subscriber)
+        await context.admit(subscriber, subscriber._abort)
+        subscriber._begin()
+        return subscriber
+
+    async def wait_for_message(self, topic: str, type: Any, timeout: float | None) -> Any:
+        """See :meth:`aioros1.Node.wait_for_message`."""
+        options = SubscriberOptions(queue_size=1, overflow="drop_newest")
+        async with (
+            deadline(timeout, f"no message on {self._context.resolve_name(topic)}"),
+            await self.subscribe(topic, type, None, options) as subscriber,
+        ):
+            return await subscriber.get()
+
+    async def serve(self, stream: Stream, server: Server) -> None:
+        """Serve the subscriber that has connected, whose header is ``server``'s.
+
+        Raises :class:`~aioros1.HandshakeError` and :class:`ConnectionError`.
+        """
+        publication = self.published(server.topic or "")
+        if publication is None:
+            name = self._context.name
+            raise HandshakeError(name, f"{name} does not publish {server.topic}")
+        await publication.serve(stream, server)
+
+    def watch(self, on_received: OnReceived) -> None:
+        """Have a function called with all that is received on any topic."""
+        self._on_received = on_received
+        for subscription in self.subscriptions.values():
+            subscription.on_received = on_received
+
+    def published(self, topic: str) -> Publication | None:
+        """The publication of a topic that has publishers."""
+        publication = self.publications.get(topic)
+        return publication if publication is not None and publication.roles else None
+
+    def abort(self) -> None:
+        """Drop all connections at once."""
+        for publication in self.publications.values():
+            publication.abort()
+        for subscription in self.subscriptions.values():
+            subscription.abort()
