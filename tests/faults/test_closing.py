@@ -47,12 +47,12 @@ async def are_free(ports: set[int]) -> bool:
     return True
 
 
-# trap 6: every loop ends
+# Every loop ends.
 
 
 @pytest.mark.parametrize("what", ["role", "node"])
 @pytest.mark.parametrize("kind", ["subscriber", "events", "provider", "param"])
-async def test_trap_6_a_loop_over_a_role_ends_when_it_closes(make_node, kind, what):
+async def test_a_loop_over_a_role_ends_when_it_closes(make_node, kind, what):
     node = await make_node()
     role: aioros1.Role  # type: ignore[name-defined]
     if kind == "provider":
@@ -73,7 +73,7 @@ async def test_trap_6_a_loop_over_a_role_ends_when_it_closes(make_node, kind, wh
         assert await collect(role.events() if kind == "events" else role) == []
 
 
-async def test_trap_6_loops_over_the_node_end_with_it(make_node):
+async def test_loops_over_the_node_end_with_it(make_node):
     node = await make_node()
     loops = await started(collect(node.events()), collect(node.rate(0.01)))
     changes = asyncio.create_task(collect(node.graph.changes()))
@@ -82,7 +82,7 @@ async def test_trap_6_loops_over_the_node_end_with_it(make_node):
         await asyncio.gather(*loops, changes)
 
 
-async def test_trap_6_a_loop_ends_when_the_node_is_shut_down_by_others(make_node):
+async def test_a_loop_ends_when_another_node_shuts_this_one_down(make_node):
     node, other = await make_node(), await make_node("other")
     sub = await node.subscribe("chatter", String)
     (loop,) = await started(collect(sub))
@@ -91,7 +91,7 @@ async def test_trap_6_a_loop_ends_when_the_node_is_shut_down_by_others(make_node
         assert await loop == []
 
 
-# trap 7: everybody who waits gets a closed error, and no cancellation
+# Whoever waits gets ClosedError, and no cancellation.
 
 
 WAITS = {
@@ -105,9 +105,7 @@ WAITS = {
 @pytest.mark.parametrize(("kind", "wait"), WAITS.values(), ids=WAITS.keys())
 @pytest.mark.parametrize("what", ["role", "node"])
 @pytest.mark.parametrize("company", [False, True], ids=["alone", "with another"])
-async def test_trap_7_who_waits_for_a_role_gets_a_closed_error(
-    make_node, kind, wait, what, company
-):
+async def test_waiting_for_a_role_raises_closed_error(make_node, kind, wait, what, company):
     """Also when another role of the same name goes on living."""
     node = await make_node()
     openings = {
@@ -126,7 +124,7 @@ async def test_trap_7_who_waits_for_a_role_gets_a_closed_error(
 
 @pytest.mark.parametrize("how", ["send", "drain"])
 @pytest.mark.parametrize("what", ["role", "node"])
-async def test_trap_7_who_waits_for_room_gets_a_closed_error(make_node, how, what):
+async def test_waiting_for_room_raises_closed_error(make_node, how, what):
     node = await make_node(timeouts=aioros1.Timeouts(close=0.1))
     pub = await node.advertise("chatter", String, queue_size=1)
     async with dialled(node, subscriber_header()) as wire:
@@ -143,7 +141,7 @@ async def test_trap_7_who_waits_for_room_gets_a_closed_error(make_node, how, wha
 
 
 @pytest.mark.parametrize("wait", ["wait_for_service", "sleep", "wait_for_message", "call"])
-async def test_trap_7_who_waits_for_something_of_the_node_gets_a_closed_error(make_node, wait):
+async def test_waiting_for_something_of_the_node_raises_closed_error(make_node, wait):
     node = await make_node()
     waits = {
         "wait_for_service": lambda: node.wait_for_service("nowhere"),
@@ -160,7 +158,7 @@ async def test_trap_7_who_waits_for_something_of_the_node_gets_a_closed_error(ma
             await asyncio.wait_for(waiting, 5)
 
 
-async def test_trap_7_a_deferred_call_fails_when_its_provider_closes(make_node):
+async def test_a_deferred_call_fails_when_its_provider_closes(make_node):
     node = await make_node()
     provider = await node.advertise_service("flip", SetBool)
     async with dialled(node, caller_header(), flip_request(True)) as wire:
