@@ -12,8 +12,10 @@ import pytest
 import aioros1
 from aioros1.msg.std_msgs import String
 from aioros1.srv.std_srvs import SetBool
+from aioros1.testing import FlakyProxy
 
 from .peers import (
+    PATIENCE,
     FakePeer,
     caller_header,
     dialled,
@@ -290,53 +292,45 @@ async def hung_master():
     """Accepts connections and never answers; only what a node must have at its start."""
     peer = FakePeer("http://127.0.0.1:1/", "/nobody")
     await peer.start()
-    yield f"http://127.0.0.1:{peer.port}/"
+    yield peer
     await peer.close()
 
 
 async def test_closing_takes_no_longer_than_its_timeout_when_the_master_hangs(master, make_node):
-    node = await make_node()
-    pub = await node.advertise("chatter", String)
-    await node.advertise_service("flip", SetBool)
-    ports = ports_of(node)
-
-    # From now on the master takes requests and answers none.
-    async def hang(*params):
-        await asyncio.Event().wait()
-
-    for name in ("unregisterPublisher", "unregisterService"):
-        master._server._methods[name] = (hang, 0, 9)
-    begin = asyncio.get_running_loop().time()
-    await node.close(timeout=0.2)
-    assert asyncio.get_running_loop().time() - begin < 2
-    assert not pub.is_open
-    assert await are_free(ports)
+    async with FlakyProxy("localhost", master.port) as proxy:
+        node = await make_node(master_uri=f"http://127.0.0.1:{proxy.port}/")
+        pub = await node.advertise("chatter", String)
+        await node.advertise_service("flip", SetBool)
+        ports = ports_of(node)
+        proxy.stall()  # from now on the master takes requests and answers none
+        async with asyncio.timeout(PATIENCE):
+            await node.close(timeout=0.2)
+        assert not pub.is_open
+        assert await are_free(ports)
 
 
 async def test_a_start_that_is_cancelled_frees_everything(hung_master):
-    node = aioros1.Node("node", master_uri=hung_master, host="localhost")
+    before = listening_ports()
+    node = aioros1.Node("node", master_uri=f"http://127.0.0.1:{hung_master.port}/", host="localhost")
     starting = asyncio.create_task(node.start())
-    await until(lambda: node._server.port and node._acceptor.port)
-    ports = ports_of(node)
-    await asyncio.sleep(0.02)
+    await hung_master.accept()
+    ports = listening_ports() - before
+    assert len(ports) == 2
     starting.cancel()
     with pytest.raises(asyncio.CancelledError):
         await starting
-    try:
-        assert await are_free(ports)
-    finally:  # what was left open would hang the closing of the event loop
-        await node._server.close()
-        await node._xmlrpc.close()
+    assert await are_free(ports)
     await node.close()
 
 
 async def test_a_start_that_fails_frees_everything(make_node, master):
     first = await make_node("first")
     taken = int(first.uri.rstrip("/").rpartition(":")[2])
+    before = listening_ports()
     node = aioros1.Node("node", master_uri=master.uri, host="localhost", xmlrpc_port=taken)
     with pytest.raises(OSError, match=str(taken)):
         await node.start()
-    assert await are_free({node._acceptor.port})
+    await until(lambda: listening_ports() == before, "nobody listens any more")
     assert not node.is_open
     await node.close()
 
