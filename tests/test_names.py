@@ -58,7 +58,7 @@ def test_canonical_form(name: str, expected: str) -> None:
         ("ü", "/ns/ü"),
     ],
 )
-def test_P9_resolution(name: str, expected: str) -> None:
+def test_names_are_resolved_in_the_namespace_of_the_node(name: str, expected: str) -> None:
     assert resolve_name(name, "/ns", NODE) == expected
 
 
@@ -68,7 +68,7 @@ def test_resolution_in_the_root_namespace() -> None:
 
 
 @pytest.mark.parametrize("name", ["", "/", "//", "a b", "a:b", " "])
-def test_P9_names_that_no_master_accepts(name: str) -> None:
+def test_names_that_no_master_accepts(name: str) -> None:
     with pytest.raises(InvalidNameError) as caught:
         resolve_name(name, "/ns", NODE, what="topic")
     assert repr(name) in str(caught.value)
@@ -207,7 +207,9 @@ def test_anonymous_names_differ_and_are_names() -> None:
         ("a b", "/n", "/a b"),
     ],
 )
-def test_P8_names_as_a_master_takes_them(name: str, caller_id: str, expected: str) -> None:
+def test_masters_resolve_names_relative_to_the_caller(
+    name: str, caller_id: str, expected: str
+) -> None:
     assert resolve_from(name, caller_id) == expected
 
 

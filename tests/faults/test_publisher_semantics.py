@@ -37,14 +37,14 @@ async def numbers(wire, count: int) -> list[int]:
     return [int((await wire.string())[:8]) for _ in range(count)]
 
 
-async def test_trap_8_everything_published_in_one_turn_of_the_loop_arrives(node):
+async def test_all_messages_published_in_one_turn_of_the_loop_arrive(node):
     async with node.advertise("chatter", String) as pub, listening(node, pub) as wire:
         for number in range(500):
             pub.publish(data=numbered(number))
         assert await numbers(wire, 500) == [*range(500)]
 
 
-async def test_trap_8_what_is_published_in_the_turn_of_the_closing_arrives(node):
+async def test_messages_published_just_before_the_publisher_closes_arrive(node):
     pub = await node.advertise("chatter", String)
     async with listening(node, pub) as wire:
         for number in range(50):
@@ -67,7 +67,7 @@ async def test_closing_the_node_sends_what_was_published(make_node):
         await closing
 
 
-async def test_trap_5_order_is_kept_whatever_the_sizes(node):
+async def test_order_is_kept_whatever_the_sizes(node):
     """Small messages are joined, large ones are not: neither overtakes the other."""
     sizes = [10, 70_000, 20, 60_000, 5_000, 200_000, 30, 30, 65_536, 65_000, 65_000]
     count = 20 * len(sizes)
@@ -339,7 +339,7 @@ async def test_seq_is_counted_by_each_publisher(node):
         assert got == [1, 2, 1, 3]
 
 
-async def test_trap_18_connections_that_come_and_go_leave_nothing(node, open_files):
+async def test_connections_that_come_and_go_leave_nothing(node, open_files):
     async with node.advertise("chatter", String) as pub:
         async with listening(node, pub):
             pass

@@ -76,7 +76,7 @@ async def test_what_a_persistent_caller_sends(fake, caller):
     assert caller.connections[0].header["md5sum"] == SET_BOOL_MD5
 
 
-async def test_V2_an_error_in_the_header_is_raised_with_its_text(fake, any_caller, bystander):
+async def test_an_error_in_the_header_is_raised_with_its_text(fake, any_caller, bystander):
     call = any_caller.send_request(data=True)
     wire = await fake.greeted()
     await wire.send(header({"error": "only for friends"}))
@@ -87,7 +87,7 @@ async def test_V2_an_error_in_the_header_is_raised_with_its_text(fake, any_calle
     assert await answered(fake, any_caller)
 
 
-async def test_V2_a_provider_of_another_definition_is_refused(fake, any_caller, bystander):
+async def test_a_provider_of_another_definition_is_refused(fake, any_caller, bystander):
     call = any_caller.send_request(data=True)
     wire = await fake.greeted()
     await wire.send(header({"callerid": "/fake", "md5sum": WRONG_MD5}))
@@ -97,7 +97,7 @@ async def test_V2_a_provider_of_another_definition_is_refused(fake, any_caller, 
     assert await bystander.is_served()
 
 
-async def test_V3_a_probe_is_closed_by_the_prober(fake, any_caller):
+async def test_a_probe_is_closed_by_the_prober(fake, any_caller):
     asking = asyncio.create_task(any_caller.is_available())
     wire = await fake.called()
     assert (wire.header["probe"], wire.header["md5sum"]) == ("1", "*")
@@ -106,7 +106,7 @@ async def test_V3_a_probe_is_closed_by_the_prober(fake, any_caller):
     assert await answered(fake, any_caller)
 
 
-async def test_V5_a_roscpp_provider_is_understood(fake, any_caller):
+async def test_a_roscpp_provider_is_understood(fake, any_caller):
     call = any_caller.send_request(data=True)
     wire = await fake.greeted()
     fields = {"callerid": "/fake", "md5sum": SET_BOOL_MD5, "type": "std_srvs/SetBool"}
@@ -118,7 +118,7 @@ async def test_V5_a_roscpp_provider_is_understood(fake, any_caller):
 
 
 @pytest.mark.parametrize("text", ["the arm is stuck", "", "caf\udce9"])
-async def test_V12_trap_1_a_failed_call_raises_the_text(fake, any_caller, text):
+async def test_a_failed_call_raises_service_error_with_its_text(fake, any_caller, text):
     call = any_caller.send_request(data=True)
     wire = await fake.called()
     await wire.frame()
@@ -130,7 +130,7 @@ async def test_V12_trap_1_a_failed_call_raises_the_text(fake, any_caller, text):
     assert any_caller.stats.errors == 1
 
 
-async def test_V12_a_failed_call_leaves_the_persistent_connection_in_use(fake, caller):
+async def test_a_failed_call_leaves_the_persistent_connection_in_use(fake, caller):
     call = caller.send_request(data=True)
     wire = await fake.called()
     await wire.frame()
@@ -140,7 +140,7 @@ async def test_V12_a_failed_call_leaves_the_persistent_connection_in_use(fake, c
     assert await answered(fake, caller, wire)
 
 
-async def test_V13_a_provider_that_was_killed_is_an_error_at_once(fake, any_caller, bystander):
+async def test_a_provider_that_was_killed_is_an_error_at_once(fake, any_caller, bystander):
     with refusing() as port:
         await fake.register(f"rosrpc://127.0.0.1:{port}")
         async with asyncio.timeout(2):
@@ -204,7 +204,7 @@ async def test_a_provider_that_is_lost_before_its_answer_is_an_error_at_once(
     assert await answered(fake, any_caller)
 
 
-async def test_trap_11_a_request_is_not_sent_again_by_itself(fake, any_caller):
+async def test_a_request_is_never_sent_twice(fake, any_caller):
     """Even on a connection that worked a moment before: the provider may have acted on it."""
     if any_caller.options.persistent:
         call = any_caller.send_request(data=True)
@@ -236,7 +236,7 @@ async def test_an_idle_connection_that_the_provider_closed_is_made_anew(fake, no
     assert fake.dials == 2
 
 
-async def test_trap_12_cancelled_call_leaves_no_late_answer(fake, caller, bystander):
+async def test_cancelled_call_leaves_no_late_answer(fake, caller, bystander):
     call = caller.send_request(data=True)
     wire = await fake.called()
     await wire.frame()
@@ -250,7 +250,7 @@ async def test_trap_12_cancelled_call_leaves_no_late_answer(fake, caller, bystan
     assert await bystander.is_served()
 
 
-async def test_trap_12_a_call_that_timed_out_leaves_no_late_answer(fake, any_caller):
+async def test_a_call_that_timed_out_leaves_no_late_answer(fake, any_caller):
     call = any_caller.send_request(data=True, timeout=0.05)
     wire = await fake.called()
     await wire.frame()
@@ -261,7 +261,7 @@ async def test_trap_12_a_call_that_timed_out_leaves_no_late_answer(fake, any_cal
     assert await answered(fake, any_caller, message="in time")
 
 
-async def test_trap_12_half_an_answer_is_not_the_beginning_of_the_next(fake, caller):
+async def test_half_an_answer_is_never_taken_for_the_start_of_the_next(fake, caller):
     call = caller.send_request(data=True, timeout=0.05)
     wire = await fake.called()
     await wire.frame()
@@ -307,9 +307,7 @@ async def test_calls_of_another_caller_overlap(node, fake):
 
 
 @pytest.mark.parametrize("length", [0xFFFF_FFFF, 1_000_000_001])
-async def test_V10_trap_19_an_answer_of_absurd_length_is_an_error(
-    fake, any_caller, bystander, length
-):
+async def test_an_answer_of_absurd_length_is_an_error(fake, any_caller, bystander, length):
     call = any_caller.send_request(data=True)
     wire = await fake.called()
     await wire.frame()
@@ -321,7 +319,7 @@ async def test_V10_trap_19_an_answer_of_absurd_length_is_an_error(
 
 
 @IMPATIENT
-async def test_V10_an_answer_that_stops_in_the_middle_is_given_up(fake, any_caller, bystander):
+async def test_an_answer_that_stops_halfway_is_given_up(fake, any_caller, bystander):
     call = any_caller.send_request(data=True, timeout=None)
     wire = await fake.called()
     await wire.frame()
@@ -384,7 +382,7 @@ async def test_a_provider_that_takes_nothing_is_given_up(node, make_provider, by
         await call
 
 
-async def test_trap_7_closing_the_caller_ends_its_calls_with_a_closed_error(fake, node):
+async def test_closing_the_caller_ends_its_calls_with_closed_error(fake, node):
     caller = await node.service_caller("flip", SetBool, persistent=True)
     calls = [caller.send_request(data=True) for _ in range(3)]
     wire = await fake.called()
@@ -396,7 +394,7 @@ async def test_trap_7_closing_the_caller_ends_its_calls_with_a_closed_error(fake
     assert await wire.is_closed()
 
 
-async def test_trap_7_closing_the_node_ends_calls_with_a_closed_error(fake, make_node):
+async def test_closing_the_node_ends_calls_with_closed_error(fake, make_node):
     node = await make_node("client")
     caller = await node.service_caller("flip", SetBool)
     call = caller.send_request(data=True)

@@ -1,4 +1,4 @@
-"""Callers that misbehave, at a real provider (rows V1 to V14 of the protocol notes)."""
+"""Callers that misbehave, at a real provider."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ async def is_answered(wire) -> bool:
     return await wire.take(len(FLIPPED)) == FLIPPED
 
 
-async def test_V1_a_caller_of_any_type_is_served(node, flip):
+async def test_a_caller_of_any_type_is_served(node, flip):
     async with dialled(node, caller_header(md5sum="*", type="*")) as wire:
         await wire.read_header()
         assert await is_answered(wire)
@@ -94,23 +94,23 @@ async def test_V1_a_caller_of_any_type_is_served(node, flip):
     ],
     ids=["md5sum", "upper case", "no md5sum", "no callerid", "unknown", "relative", "empty"],
 )
-async def test_V2_a_wrong_header_is_refused_with_a_reason(node, flip, bystander, changes, reason):
+async def test_a_wrong_header_is_refused_with_a_reason(node, flip, bystander, changes, reason):
     assert reason in await refusal(node, caller_header(**changes))
     assert await bystander.is_served()
 
 
-async def test_V3_a_probe_is_answered_and_closed(node, flip):
+async def test_a_probe_is_answered_and_closed(node, flip):
     async with dialled(node, caller_header(md5sum="*", probe="1")) as wire:
         assert (await wire.read_header())["callerid"] == "/server"
         assert await wire.is_closed()
     assert flip.stats.messages == 0
 
 
-async def test_V4_a_probe_with_another_md5sum_is_refused(node, flip):
+async def test_a_probe_with_another_md5sum_is_refused(node, flip):
     assert WRONG_MD5 in await refusal(node, caller_header(md5sum=WRONG_MD5, probe="1"))
 
 
-async def test_V5_the_reply_has_the_fields_of_rospy_and_of_roscpp(node, flip):
+async def test_the_reply_has_the_fields_of_rospy_and_of_roscpp(node, flip):
     async with dialled(node, caller_header()) as wire:
         assert await wire.read_header() == {
             "callerid": "/server",
@@ -123,7 +123,7 @@ async def test_V5_the_reply_has_the_fields_of_rospy_and_of_roscpp(node, flip):
 
 
 @pytest.mark.parametrize("value", ["1", "true"])
-async def test_V6_a_persistent_connection_serves_many_calls(node, flip, value):
+async def test_a_persistent_connection_serves_many_calls(node, flip, value):
     async with dialled(node, caller_header(persistent=value)) as wire:
         await wire.read_header()
         for _ in range(3):
@@ -135,7 +135,7 @@ async def test_V6_a_persistent_connection_serves_many_calls(node, flip, value):
 
 
 @IMPATIENT
-async def test_V6_an_idle_persistent_connection_is_kept(node, flip):
+async def test_an_idle_persistent_connection_is_kept(node, flip):
     async with dialled(node, caller_header(**PERSISTENT)) as wire:
         await wire.read_header()
         assert await is_answered(wire)
@@ -143,7 +143,7 @@ async def test_V6_an_idle_persistent_connection_is_kept(node, flip):
         assert await is_answered(wire)
 
 
-async def test_V7_a_connection_that_is_not_persistent_serves_one_call(node, flip, bystander):
+async def test_a_connection_that_is_not_persistent_serves_one_call(node, flip, bystander):
     async with dialled(node, caller_header(), flip_request(True) * 2) as wire:
         await wire.read_header()
         assert await wire.take(len(FLIPPED)) == FLIPPED
@@ -153,7 +153,7 @@ async def test_V7_a_connection_that_is_not_persistent_serves_one_call(node, flip
 
 
 @pytest.mark.parametrize("persistent", ["0", "1"])
-async def test_V8_a_request_that_is_too_short_fails_and_ends_the_connection(
+async def test_a_request_that_is_too_short_fails_and_ends_the_connection(
     node, flip, bystander, persistent
 ):
     header = caller_header(persistent=persistent)
@@ -167,14 +167,14 @@ async def test_V8_a_request_that_is_too_short_fails_and_ends_the_connection(
     assert await bystander.is_served()
 
 
-async def test_V9_bytes_behind_the_request_are_ignored(node, flip):
+async def test_bytes_behind_the_request_are_ignored(node, flip):
     async with dialled(node, caller_header(), frame(b"\x01excess")) as wire:
         await wire.read_header()
         assert await wire.take(len(FLIPPED)) == FLIPPED
 
 
 @pytest.mark.parametrize("persistent", ["0", "1"])
-async def test_V10_an_absurd_length_is_refused_at_once(node, flip, bystander, persistent):
+async def test_an_absurd_length_is_refused_at_once(node, flip, bystander, persistent):
     async with dialled(node, caller_header(persistent=persistent), b"\xff\xff\xff\xff") as wire:
         await wire.read_header()
         ok, text = await wire.answer()
@@ -186,9 +186,7 @@ async def test_V10_an_absurd_length_is_refused_at_once(node, flip, bystander, pe
 
 @IMPATIENT
 @pytest.mark.parametrize(("persistent", "came"), [("0", 0), ("1", 100_000)])
-async def test_V10_a_request_that_does_not_come_is_given_up(
-    node, flip, bystander, persistent, came
-):
+async def test_a_request_that_never_arrives_is_given_up(node, flip, bystander, persistent, came):
     said = struct.pack("<I", 900_000_000) + bytes(came)
     async with dialled(node, caller_header(persistent=persistent), said) as wire:
         await wire.read_header()
@@ -201,7 +199,7 @@ async def test_V10_a_request_that_does_not_come_is_given_up(
 
 
 @IMPATIENT
-async def test_V10_a_caller_that_connects_for_one_call_and_makes_none_is_given_up(node, flip):
+async def test_a_caller_that_connects_and_makes_no_call_is_given_up(node, flip):
     async with dialled(node, caller_header()) as wire:
         await wire.read_header()
         assert (await wire.answer())[0] == 0
@@ -209,7 +207,7 @@ async def test_V10_a_caller_that_connects_for_one_call_and_makes_none_is_given_u
 
 
 @pytest.mark.parametrize("byte", [1, 7, 255])
-async def test_V11_any_true_byte_is_true(node, byte):
+async def test_any_true_byte_is_true(node, byte):
     seen = []
 
     def handler(request):
@@ -230,7 +228,9 @@ class Refusal(Exception):
 
 
 @pytest.mark.parametrize("kind", ["function", "coroutine function"])
-async def test_V12_what_a_handler_raises_is_the_text_of_the_error(node, bystander, caplog, kind):
+async def test_an_exception_in_a_handler_is_sent_as_the_text_of_the_error(
+    node, bystander, caplog, kind
+):
     def fail(request):
         raise Refusal("the arm is stuck")
 
@@ -258,7 +258,7 @@ async def test_V12_what_a_handler_raises_is_the_text_of_the_error(node, bystande
     [{"message": 5}, {"no_such_field": 1}, 5, "text"],
     ids=["value", "field", "int", "str"],
 )
-async def test_V12_a_response_that_cannot_be_sent_is_an_error_for_the_caller(
+async def test_a_response_that_cannot_be_sent_is_an_error_for_the_caller(
     node, bystander, caplog, answer
 ):
     async with (
@@ -275,7 +275,7 @@ async def test_V12_a_response_that_cannot_be_sent_is_an_error_for_the_caller(
     caplog.clear()
 
 
-async def test_V12_a_service_error_is_an_answer_and_no_failure_of_ours(node):
+async def test_service_error_in_a_handler_is_an_answer_and_is_not_logged(node):
     def handler(request):
         raise aioros1.ServiceError("not today")
 
@@ -287,7 +287,7 @@ async def test_V12_a_service_error_is_an_answer_and_no_failure_of_ours(node):
         assert await wire.answer() == (0, b"not today")
 
 
-async def test_V14_topics_and_services_share_one_port(node, flip):
+async def test_topics_and_services_share_one_port(node, flip):
     async with (
         node.advertise("chatter", String) as pub,
         dialled(node, caller_header(**PERSISTENT)) as call,
@@ -301,7 +301,7 @@ async def test_V14_topics_and_services_share_one_port(node, flip):
         assert await is_answered(call)
 
 
-async def test_V14_a_topic_is_no_service_and_a_service_no_topic(node, flip):
+async def test_a_topic_cannot_be_called_and_a_service_cannot_be_subscribed_to(node, flip):
     assert "does not publish" in await refusal(node, subscriber_header("/flip"))
     async with node.advertise("chatter", "std_msgs/String"):
         assert "no service" in await refusal(node, caller_header("/chatter"))

@@ -1,4 +1,4 @@
-"""The slave API, asked rightly and wrongly (rows S1 to S13 of the protocol notes)."""
+"""Right and wrong requests to the slave API of a node."""
 
 from __future__ import annotations
 
@@ -46,14 +46,16 @@ UDPROS = ["UDPROS", "", "127.0.0.1", 1, 1500]
 
 
 @pytest.mark.parametrize("protocols", [[["FOO"]], [["tcpros"]], [["FOO", 1], ["BAR"]]])
-async def test_S1_no_protocol_in_common(node, pub, ask, protocols):
+async def test_request_topic_without_a_common_protocol_answers_0(node, pub, ask, protocols):
     code, status, value = await ask(node, "requestTopic", "/chatter", protocols)
     assert (code, value) == (0, [])
     assert status
 
 
 @pytest.mark.parametrize("topic", ["/unknown", "/calm/in", "chatter", "~"])
-async def test_S2_a_topic_that_is_not_published(node, pub, bystander, ask, topic):
+async def test_request_topic_for_an_unpublished_topic_answers_minus_1(
+    node, pub, bystander, ask, topic
+):
     code, status, _ = await ask(node, "requestTopic", topic, [["TCPROS"]])
     assert code == -1
     assert topic in status
@@ -61,7 +63,9 @@ async def test_S2_a_topic_that_is_not_published(node, pub, bystander, ask, topic
 
 
 @pytest.mark.parametrize("protocols", ["TCPROS", [], {}, 1, ""])
-async def test_S3_protocols_that_are_no_list(node, pub, bystander, ask, protocols):
+async def test_request_topic_with_protocols_that_are_not_a_list_is_refused(
+    node, pub, bystander, ask, protocols
+):
     code, status, _ = await ask(node, "requestTopic", "/chatter", protocols)
     assert code == -1
     assert "protocols" in status
@@ -69,31 +73,31 @@ async def test_S3_protocols_that_are_no_list(node, pub, bystander, ask, protocol
 
 
 @pytest.mark.parametrize("protocols", [[[]], ["TCPROS"], [1], [[[]]], [[{}]]])
-async def test_S3_protocols_that_are_not_understood(node, pub, ask, protocols):
+async def test_request_topic_with_unknown_protocols_answers_0(node, pub, ask, protocols):
     code, status, _ = await ask(node, "requestTopic", "/chatter", protocols)
     assert code == -1
     assert "protocols" in status
 
 
 @pytest.mark.parametrize("topic", ["", 1, [], {}])
-async def test_S3_a_topic_that_is_no_name(node, pub, ask, topic):
+async def test_request_topic_with_an_invalid_name_is_refused(node, pub, ask, topic):
     assert (await ask(node, "requestTopic", topic, [["TCPROS"]]))[0] == -1
 
 
-async def test_S4_UDPROS_alone_is_not_in_common(node, pub, ask):
+async def test_request_topic_for_udpros_alone_answers_0(node, pub, ask):
     assert (await ask(node, "requestTopic", "/chatter", [UDPROS]))[0] == 0
 
 
 @pytest.mark.parametrize(
     "before", [[UDPROS], [["UDPROS"]], [[]], [5], ["TCPROS"], [["FOO"], UDPROS]]
 )
-async def test_S5_what_is_not_understood_is_passed_over(node, pub, ask, before):
+async def test_request_topic_skips_the_protocols_it_does_not_know(node, pub, ask, before):
     answer = await ask(node, "requestTopic", "/chatter", [*before, ["TCPROS"]])
     host, port = node.tcpros_address
     assert answer == [1, "ready", ["TCPROS", host, port]]
 
 
-async def test_S6_trap_10_bus_stats_count_what_was_sent_and_received(node, pub, ask, make_node):
+async def test_bus_stats_count_what_was_sent_and_received(node, pub, ask, make_node):
     other = await make_node("listener")
     async with (
         other.subscribe("chatter", String) as sub,
@@ -128,7 +132,7 @@ async def test_S6_trap_10_bus_stats_count_what_was_sent_and_received(node, pub, 
     ],
     ids=["roscpp", "rospy", "documented"],
 )
-async def test_S6_bus_stats_of_others_are_understood(answer):
+async def test_bus_stats_of_others_are_understood(answer):
     server = XmlRpcServer({"getBusStats": lambda caller_id: answer})
     await server.start("127.0.0.1")
     client = XmlRpcClient()
@@ -142,7 +146,7 @@ async def test_S6_bus_stats_of_others_are_understood(answer):
     assert published.connections[0].bytes_sent == 10
 
 
-async def test_S7_trap_10_bus_info_has_a_row_for_each_connection(node, pub, ask, make_node):
+async def test_bus_info_has_a_row_for_each_connection(node, pub, ask, make_node):
     other = await make_node("listener")
     async with (
         other.subscribe("chatter", String) as sub,
@@ -170,7 +174,7 @@ async def test_S7_trap_10_bus_info_has_a_row_for_each_connection(node, pub, ask,
     assert (await ask(node, "getBusInfo"))[2] == []
 
 
-async def test_S7_a_peer_whose_name_xml_cannot_carry(node, pub, ask):
+async def test_bus_info_survives_a_peer_whose_name_xml_cannot_carry(node, pub, ask):
     """Whoever connects chooses its name, and all others are shown as ever."""
     async with (
         dialled(node, subscriber_header(callerid="/a\0")),
@@ -183,14 +187,16 @@ async def test_S7_a_peer_whose_name_xml_cannot_carry(node, pub, ask):
         assert {info.peer for info in pub.connections} == {"/a\0", "/b\udcff", "/é<"}
 
 
-async def test_S8_publishers_of_an_unknown_topic(node, bystander, ask):
+async def test_publisher_update_for_an_unknown_topic_is_accepted(node, bystander, ask):
     code, _, _ = await ask(node, "publisherUpdate", "/unknown", ["http://127.0.0.1:1/"])
     assert code == 1
     assert await bystander.is_served()
 
 
 @pytest.mark.parametrize("publishers", ["bad", ["bad"], [1], {}, 5, [["http://127.0.0.1:1/"]]])
-async def test_S9_publishers_that_are_no_uris(node, bystander, ask, publishers):
+async def test_publisher_update_with_invalid_publishers_is_refused(
+    node, bystander, ask, publishers
+):
     code, status, _ = await ask(node, "publisherUpdate", "/calm/in", publishers)
     assert code == -1
     assert "publishers" in status
@@ -198,7 +204,7 @@ async def test_S9_publishers_that_are_no_uris(node, bystander, ask, publishers):
 
 
 @pytest.mark.parametrize("uri", ["http://", "http://[", "http://x:y/", "http://a..b/", "http:// "])
-async def test_S9_publishers_of_no_use_are_survived(node, bystander, ask, uri):
+async def test_publisher_update_survives_uris_that_lead_nowhere(node, bystander, ask, uri):
     async with node.subscribe("chatter", String):
         assert (await ask(node, "publisherUpdate", "/chatter", [uri]))[0] in (1, -1)
         assert await bystander.is_served()
@@ -206,13 +212,13 @@ async def test_S9_publishers_of_no_use_are_survived(node, bystander, ask, uri):
 
 
 @pytest.mark.parametrize("key", ["/unknown", "/unknown/", "/", "relative", "", 5])
-async def test_S10_a_parameter_that_is_not_followed(node, bystander, ask, key):
+async def test_param_update_for_a_key_that_is_not_followed_is_refused(node, bystander, ask, key):
     assert (await ask(node, "paramUpdate", key, 1))[0] == -1
     assert await bystander.is_served()
 
 
 @pytest.mark.parametrize("key", ["/limits", "/limits/"])
-async def test_S10_trap_15_a_parameter_that_is_followed(node, ask, key):
+async def test_param_update_for_a_followed_key_is_accepted(node, ask, key):
     async with node.subscribe_param("limits") as param:
         assert (await ask(node, "paramUpdate", key, {"speed": 1}))[0] == 1
         assert param.value == {"speed": 1}
@@ -222,7 +228,7 @@ async def test_S10_trap_15_a_parameter_that_is_followed(node, ask, key):
     assert (await ask(node, "paramUpdate", key, 1))[0] == -1
 
 
-async def test_trap_15_the_master_forgets_a_parameter_that_is_followed_no_more(node, make_node):
+async def test_the_master_forgets_a_parameter_that_is_no_longer_followed(node, make_node):
     other = await make_node("other")
     async with node.subscribe_param("limits"), node.subscribe_param("limits/speed"):
         await other.set_param("/limits/speed", 1)
@@ -232,7 +238,7 @@ async def test_trap_15_the_master_forgets_a_parameter_that_is_followed_no_more(n
 
 
 @pytest.mark.parametrize("reason", [("go home",), ("",), ()])
-async def test_S11_trap_9_shutdown_is_answered_and_then_obeyed(node, ask, reason):
+async def test_shutdown_is_answered_and_then_obeyed(node, ask, reason):
     assert (await ask(node, "shutdown", *reason))[0] == 1
     async with asyncio.timeout(5):
         why = await node.wait_closed()
@@ -242,12 +248,12 @@ async def test_S11_trap_9_shutdown_is_answered_and_then_obeyed(node, ask, reason
 
 
 @pytest.mark.parametrize("reason", [5, [], {}])
-async def test_S11_shutdown_for_a_reason_that_is_no_text_is_refused(node, bystander, ask, reason):
+async def test_shutdown_with_a_reason_that_is_not_a_string_is_refused(node, bystander, ask, reason):
     assert (await ask(node, "shutdown", reason))[0] == -1
     assert await bystander.is_served()
 
 
-async def test_S11_everything_ends_with_a_shutdown(node, pub, ask, master):
+async def test_shutdown_ends_every_role_of_the_node(node, pub, ask, master):
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()
         await ask(node, "shutdown", "enough")
@@ -255,7 +261,7 @@ async def test_S11_everything_ends_with_a_shutdown(node, pub, ask, master):
         await node.wait_closed()
 
 
-async def test_S12_the_node_says_who_it_is(node, ask, master):
+async def test_name_uri_pid_and_master_uri_are_answered(node, ask, master):
     assert (await ask(node, "getName"))[::2] == [1, "/talker"]
     assert (await ask(node, "getUri"))[::2] == [1, node.uri]
     assert (await ask(node, "getPid"))[::2] == [1, node.pid]
@@ -269,9 +275,7 @@ async def test_the_node_says_what_it_publishes_and_subscribes_to(node, pub, ask)
     assert (await ask(node, "getSubscriptions"))[2] == []
 
 
-async def test_S13_a_storm_of_announcements_leaves_one_connection(
-    node, make_publisher, bystander, ask
-):
+async def test_a_storm_of_announcements_leaves_one_connection(node, make_publisher, bystander, ask):
     fake = await make_publisher(register=False)
     async with node.subscribe("chatter", String) as sub:
         await ask(node, "publisherUpdate", "/chatter", [fake.uri] * 5)
@@ -288,7 +292,7 @@ async def test_S13_a_storm_of_announcements_leaves_one_connection(
         assert (await sub.get(timeout=5)).data == "after"
 
 
-async def test_S13_a_flood_of_equal_announcements_is_one_connection(node, make_publisher, ask):
+async def test_a_flood_of_equal_announcements_leaves_one_connection(node, make_publisher, ask):
     fake = await make_publisher(register=False)
     async with node.subscribe("chatter", String) as sub:
         await asyncio.gather(

@@ -175,7 +175,7 @@ async def test_a_blocked_subscriber_is_let_go_when_it_closes(node, fake):
         assert [int((await other.get(timeout=5)).data[:8]) for _ in range(10)] == [*range(10)]
 
 
-async def test_trap_17_a_queue_of_one_holds_the_newest(make_node, node):
+async def test_a_queue_of_one_holds_the_newest(make_node, node):
     talker = await make_node("talker")
     async with (
         talker.advertise("chatter", String, queue_size=10_000) as pub,
@@ -189,7 +189,7 @@ async def test_trap_17_a_queue_of_one_holds_the_newest(make_node, node):
         assert sub.dropped == 999
 
 
-async def test_trap_5_a_queue_is_bounded_in_memory_too(node, fake):
+async def test_a_queue_is_bounded_in_memory_too(node, fake):
     """Messages that were dropped are not kept by the ones that arrived with them."""
     async with node.subscribe("chatter", String, queue_size=2) as sub:
         wire = await fake.subscribed()
@@ -258,7 +258,7 @@ async def test_several_who_wait_share_the_messages(node, fake):
         assert sorted(got) == [numbered(number) for number in range(5)]
 
 
-async def test_trap_18_publishers_that_come_and_go_leave_nothing(node, fake, open_files):
+async def test_publishers_that_come_and_go_leave_nothing(node, fake, open_files):
     async with node.subscribe("chatter", String, queue_size=100) as sub:
 
         async def once() -> None:
@@ -277,7 +277,7 @@ async def test_trap_18_publishers_that_come_and_go_leave_nothing(node, fake, ope
         await until(lambda: open_files() <= files + 2)
 
 
-async def test_trap_18_a_closed_subscriber_is_forgotten(node, fake):
+async def test_a_closed_subscriber_is_forgotten(node, fake):
     sub = await node.subscribe("chatter", String)
     wire = await fake.subscribed()
     await wire.send(burst(1))

@@ -1,4 +1,4 @@
-"""Subscribers that misbehave, at a real publisher (rows T1 to T22 of the protocol notes)."""
+"""Subscribers that misbehave, at a real publisher."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ async def hears(wire, pub, text: str) -> bool:
     return await wire.string() == text
 
 
-async def test_T1_any_type_is_accepted_and_told_the_real_one(node, pub):
+async def test_a_subscriber_of_any_type_is_told_the_real_one(node, pub):
     async with dialled(node, subscriber_header(md5sum="*", type="*")) as wire:
         assert await hears(wire, pub, "hi")
         assert wire.header["type"] == "std_msgs/String"
@@ -80,7 +80,7 @@ async def test_T1_any_type_is_accepted_and_told_the_real_one(node, pub):
 
 
 @pytest.mark.parametrize("md5sum", [WRONG_MD5, STRING_MD5.upper()])
-async def test_T2_another_md5sum_is_refused_with_a_reason(node, pub, bystander, md5sum):
+async def test_another_md5sum_is_refused_with_a_reason(node, pub, bystander, md5sum):
     error = await refusal(node, subscriber_header(md5sum=md5sum))
     assert md5sum in error
     assert STRING_MD5 in error
@@ -88,12 +88,12 @@ async def test_T2_another_md5sum_is_refused_with_a_reason(node, pub, bystander, 
     assert await bystander.is_served()
 
 
-async def test_T3_another_type_name_with_the_same_md5sum_is_accepted(node, pub):
+async def test_another_type_name_with_the_same_md5sum_is_accepted(node, pub):
     async with dialled(node, subscriber_header(type="renamed_msgs/String")) as wire:
         assert await hears(wire, pub, "hi")
 
 
-async def test_T3_another_type_name_with_the_same_md5sum_is_warned_of(node, pub, caplog):
+async def test_another_type_name_with_the_same_md5sum_is_logged(node, pub, caplog):
     async with dialled(node, subscriber_header(type="renamed_msgs/String")) as wire:
         assert await hears(wire, pub, "hi")
     warnings = [each.getMessage() for each in caplog.records if each.levelno == logging.WARNING]
@@ -101,29 +101,29 @@ async def test_T3_another_type_name_with_the_same_md5sum_is_warned_of(node, pub,
 
 
 @pytest.mark.parametrize("missing", ["md5sum", "callerid"])
-async def test_T4_a_header_without_md5sum_or_callerid_is_refused(node, pub, bystander, missing):
+async def test_a_header_without_md5sum_or_callerid_is_refused(node, pub, bystander, missing):
     assert missing in await refusal(node, subscriber_header(**{missing: None}))
     assert await bystander.is_served()
 
 
-async def test_T5_a_header_without_a_type_is_accepted(node, pub):
+async def test_a_header_without_a_type_is_accepted(node, pub):
     async with dialled(node, subscriber_header(type=None)) as wire:
         assert await hears(wire, pub, "hi")
 
 
-async def test_T6_a_header_without_topic_and_service_is_refused(node, pub, bystander):
+async def test_a_header_without_topic_and_service_is_refused(node, pub, bystander):
     fields = {"callerid": "/fake", "md5sum": "*"}
     assert "neither topic nor service" in await refusal(node, header(fields))
     assert await bystander.is_served()
 
 
 @pytest.mark.parametrize("topic", ["/unknown", "chatter", "", "/chatter/", "/calm/in"])
-async def test_T7_a_topic_that_is_not_published_is_refused(node, pub, bystander, topic):
+async def test_a_topic_that_is_not_published_is_refused(node, pub, bystander, topic):
     assert "does not publish" in await refusal(node, subscriber_header(topic))
     assert await bystander.is_served()
 
 
-async def test_T8_unknown_fields_and_equals_signs_do_no_harm(node, pub):
+async def test_unknown_fields_and_equals_signs_do_no_harm(node, pub):
     extra = {"rock=et": "a=b", "empty": ""}
     data = subscriber_header()[4:] + header(extra)[4:]
     async with dialled(node, frame(data)) as wire:
@@ -131,48 +131,48 @@ async def test_T8_unknown_fields_and_equals_signs_do_no_harm(node, pub):
         assert pub.connections[0].header["rock"] == "et=a=b"
 
 
-async def test_T9_of_a_field_given_twice_the_last_counts(node, pub):
+async def test_the_last_of_repeated_fields_counts(node, pub):
     doubled = header({"topic": "/other", "md5sum": WRONG_MD5})[4:] + subscriber_header()[4:]
     async with dialled(node, frame(doubled)) as wire:
         assert await hears(wire, pub, "hi")
 
 
 @pytest.mark.parametrize("bad", [frame(b""), frame(b"no separator"), frame(b"=no name")])
-async def test_T10_a_field_that_is_not_name_and_value_is_refused(node, pub, bystander, bad):
+async def test_a_field_without_an_equals_sign_is_refused(node, pub, bystander, bad):
     assert "name=value" in await refusal(node, frame(subscriber_header()[4:] + bad))
     assert await bystander.is_served()
 
 
-async def test_T11_a_value_that_is_not_utf8_is_accepted(node, pub):
+async def test_a_value_that_is_not_utf8_is_accepted(node, pub):
     data = subscriber_header()[4:] + frame(b"note=caf\xe9\xff")
     async with dialled(node, frame(data)) as wire:
         assert await hears(wire, pub, "hi")
 
 
 @pytest.mark.parametrize("length", [0xFFFF_FFFF, 900_000_000, (1 << 20) + 1])
-async def test_T12_T13_an_absurd_header_length_is_refused_at_once(node, pub, bystander, length):
+async def test_an_absurd_header_length_is_refused_at_once(node, pub, bystander, length):
     # One byte behind the length: neither waited for nor given room to.
     assert f"{length} bytes" in await refusal(node, struct.pack("<I", length) + b"x")
     assert await bystander.is_served()
 
 
-async def test_T13_a_large_header_within_the_limit_is_accepted(node, pub):
+async def test_a_large_header_within_the_limit_is_accepted(node, pub):
     async with dialled(node, subscriber_header(message_definition="#" * 900_000)) as wire:
         assert await hears(wire, pub, "hi")
 
 
-async def test_T14_a_header_of_no_bytes_is_refused(node, pub, bystander):
+async def test_a_header_of_no_bytes_is_refused(node, pub, bystander):
     assert "empty header" in await refusal(node, struct.pack("<I", 0))
     assert await bystander.is_served()
 
 
-async def test_T15_a_field_past_the_end_is_refused(node, pub, bystander):
+async def test_a_field_past_the_end_is_refused(node, pub, bystander):
     data = subscriber_header()[4:] + struct.pack("<I", 1000) + b"short=1"
     assert "passes the end" in await refusal(node, frame(data))
     assert await bystander.is_served()
 
 
-async def test_T16_a_header_in_small_pieces_is_accepted(node, pub):
+async def test_a_header_in_small_pieces_is_accepted(node, pub):
     async with dialled(node) as wire:
         for byte in subscriber_header():
             await wire.send(bytes([byte]))
@@ -188,7 +188,7 @@ half_open = pytest.mark.parametrize(
 
 
 @half_open
-async def test_T17_half_open_connection_blocks_nobody(make_node, bystander_of, said):
+async def test_half_open_connection_blocks_nobody(make_node, bystander_of, said):
     node = await make_node("talker", timeouts=aioros1.Timeouts(handshake=30))
     bystander = await bystander_of(node)
     async with node.advertise("chatter", String) as pub, dialled(node, said):
@@ -199,7 +199,7 @@ async def test_T17_half_open_connection_blocks_nobody(make_node, bystander_of, s
 
 @IMPATIENT
 @half_open
-async def test_T17_half_open_connection_is_closed_after_the_timeout(node, pub, bystander, said):
+async def test_half_open_connection_is_closed_after_the_timeout(node, pub, bystander, said):
     async with dialled(node, said) as wire:
         assert "no whole connection header in 0.15 s" in (await wire.read_header())["error"]
         assert await wire.is_closed()
@@ -207,7 +207,7 @@ async def test_T17_half_open_connection_is_closed_after_the_timeout(node, pub, b
 
 
 @IMPATIENT
-async def test_T17_a_header_that_trickles_has_no_more_time(node, pub):
+async def test_a_header_that_trickles_in_gets_no_extra_time(node, pub):
     async with dialled(node) as wire:
 
         async def trickle():
@@ -221,14 +221,14 @@ async def test_T17_a_header_that_trickles_has_no_more_time(node, pub):
         await asyncio.wait({trickling})
 
 
-async def test_T17_many_half_open_connections_block_nobody(node, pub, bystander):
+async def test_many_half_open_connections_block_nobody(node, pub, bystander):
     async with contextlib.AsyncExitStack() as wires:
         for _ in range(50):
             await wires.enter_async_context(dialled(node, b"\x10"))
         assert await bystander.is_served()
 
 
-async def test_T18_what_a_subscriber_says_behind_its_header_is_ignored(node, pub, bystander):
+async def test_bytes_after_the_subscribers_header_are_ignored(node, pub, bystander):
     async with dialled(node, subscriber_header() + b"stray") as wire:
         assert await hears(wire, pub, "hi")
         # More than all buffers on the way can hold, so it must have been taken.
@@ -239,7 +239,7 @@ async def test_T18_what_a_subscriber_says_behind_its_header_is_ignored(node, pub
     assert await bystander.is_served()
 
 
-async def test_T19_trap_16_a_subscriber_that_never_reads_slows_nobody(make_node, node, bystander):
+async def test_a_subscriber_that_never_reads_slows_nobody(make_node, node, bystander):
     payload = bytes(1_000_000)
     other = await make_node("listener")
     async with (
@@ -259,7 +259,7 @@ async def test_T19_trap_16_a_subscriber_that_never_reads_slows_nobody(make_node,
         assert await bystander.is_served()
 
 
-async def test_T20_the_last_message_of_a_latched_topic_goes_to_each_newcomer(node, pub):
+async def test_the_last_message_of_a_latched_topic_goes_to_each_newcomer(node, pub):
     async with node.advertise("fixed", String, latch=True) as latched:
         latched.publish(data="old")
         latched.publish(data="new")
@@ -273,7 +273,7 @@ async def test_T20_the_last_message_of_a_latched_topic_goes_to_each_newcomer(nod
         assert (await wire.read_header())["latching"] == "0"
 
 
-async def test_T20_each_of_several_latched_publishers_of_a_topic_delivers(node):
+async def test_each_of_several_latched_publishers_of_a_topic_delivers(node):
     async with (
         node.advertise("fixed", String, latch=True) as one,
         node.advertise("fixed", String, latch=True) as two,
@@ -287,7 +287,7 @@ async def test_T20_each_of_several_latched_publishers_of_a_topic_delivers(node):
             assert {await wire.string(), await wire.string()} == {"one", "two"}
 
 
-async def test_T21_the_reply_has_the_fields_that_others_rely_on(node, pub):
+async def test_the_reply_has_the_fields_that_others_rely_on(node, pub):
     async with dialled(node, subscriber_header()) as wire:
         assert await wire.read_header() == {
             "callerid": "/talker",
@@ -299,7 +299,7 @@ async def test_T21_the_reply_has_the_fields_that_others_rely_on(node, pub):
         }
 
 
-async def test_T21_additional_fields_of_the_user_are_sent(node):
+async def test_additional_fields_of_the_user_are_sent(node):
     async with (
         node.advertise("chatter", String, headers={"robot": "r2"}),
         dialled(node, subscriber_header()) as wire,
@@ -308,7 +308,7 @@ async def test_T21_additional_fields_of_the_user_are_sent(node):
 
 
 @pytest.mark.parametrize("asked", ["1", "0", None])
-async def test_T22_small_messages_are_never_held_back(node, pub, asked):
+async def test_small_messages_are_never_held_back(node, pub, asked):
     async with dialled(node, subscriber_header(tcp_nodelay=asked)) as wire:
         await wire.read_header()
         await pub.wait_for_subscribers(timeout=5)

@@ -1,4 +1,4 @@
-"""Publishers that misbehave, at a real subscriber (rows U1 to U15 of the protocol notes)."""
+"""Publishers that misbehave, at a real subscriber."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def warnings_of(caplog: pytest.LogCaptureFixture) -> list[str]:
 # the handshake
 
 
-async def test_U1_a_publisher_of_another_definition_is_refused(fake, sub, bystander, caplog):
+async def test_a_publisher_of_another_definition_is_refused(fake, sub, bystander, caplog):
     wire = await fake.greeted()
     await wire.send(reply(md5sum=WRONG_MD5), string("not a string at all"))
     assert await wire.is_closed()
@@ -88,7 +88,7 @@ async def test_U1_a_publisher_of_another_definition_is_refused(fake, sub, bystan
 
 
 @pytest.mark.parametrize("missing", ["md5sum", "type"])
-async def test_U2_a_reply_without_md5sum_or_type_is_refused(fake, sub, bystander, missing):
+async def test_a_reply_without_md5sum_or_type_is_refused(fake, sub, bystander, missing):
     wire = await fake.greeted()
     await wire.send(reply(without=missing), string("wrong"))
     assert await wire.is_closed()
@@ -97,7 +97,7 @@ async def test_U2_a_reply_without_md5sum_or_type_is_refused(fake, sub, bystander
     assert sub.stats.messages == 1
 
 
-async def test_U3_an_error_in_the_reply_is_logged_with_its_text(fake, sub, bystander, caplog):
+async def test_an_error_in_the_reply_is_logged_with_its_text(fake, sub, bystander, caplog):
     wire = await fake.greeted()
     await wire.send(header({"error": "the robot sleeps"}), string("wrong"))
     assert await wire.is_closed()
@@ -132,9 +132,7 @@ async def test_a_publisher_that_never_replies_is_given_up_and_tried_again(fake, 
 # messages
 
 
-async def test_U4_an_absurd_length_ends_the_connection_and_not_the_subscription(
-    fake, sub, bystander
-):
+async def test_an_absurd_length_ends_the_connection_and_not_the_subscription(fake, sub, bystander):
     wire = await fake.subscribed()
     await wire.send(string("before"), b"\xff\xff\xff\xff", string("never"))
     assert await wire.is_closed()
@@ -143,7 +141,7 @@ async def test_U4_an_absurd_length_ends_the_connection_and_not_the_subscription(
     assert await recovers(fake, sub)
 
 
-async def test_U4_the_limit_can_be_set(make_node, fake):
+async def test_the_limit_of_message_bytes_is_an_option(make_node, fake):
     node = await make_node("listener", limits=aioros1.Limits(message_bytes=100))
     async with node.subscribe("chatter", String) as sub:
         wire = await fake.subscribed()
@@ -154,8 +152,8 @@ async def test_U4_the_limit_can_be_set(make_node, fake):
         assert sub.stats.messages == 2
 
 
-@pytest.mark.parametrize("wrong", [b"\xff\xff\xff\xff", b""], ids=["U4", "U10"])
-async def test_U4_U10_a_publisher_that_fails_again_and_again_is_asked_less_and_less(
+@pytest.mark.parametrize("wrong", [b"\xff\xff\xff\xff", b""], ids=["an absurd length", "nothing"])
+async def test_a_publisher_that_keeps_failing_is_asked_less_and_less_often(
     fake, sub, wrong, caplog
 ):
     """The handshake goes well each time; that alone is no reason to be quick again."""
@@ -169,7 +167,7 @@ async def test_U4_U10_a_publisher_that_fails_again_and_again_is_asked_less_and_l
     assert len(warnings_of(caplog)) <= 2
 
 
-async def test_U5_a_large_message_that_does_not_come_takes_no_memory(fake, sub, bystander):
+async def test_a_large_message_that_never_arrives_takes_no_memory(fake, sub, bystander):
     wire = await fake.subscribed()
     await sub.wait_for_publishers(timeout=5)
     tracemalloc.start()
@@ -181,7 +179,7 @@ async def test_U5_a_large_message_that_does_not_come_takes_no_memory(fake, sub, 
         tracemalloc.stop()
 
 
-async def test_U6_a_string_past_the_end_of_its_message_is_skipped(fake, sub, bystander):
+async def test_a_string_past_the_end_of_its_message_is_skipped(fake, sub, bystander):
     wire = await fake.subscribed()
     await wire.send(frame(struct.pack("<I", 1000) + b"short"), string("good"))
     assert (await sub.get(timeout=5)).data == "good"
@@ -190,14 +188,14 @@ async def test_U6_a_string_past_the_end_of_its_message_is_skipped(fake, sub, bys
     assert await bystander.is_served()
 
 
-async def test_U7_bytes_behind_the_message_are_ignored(fake, sub):
+async def test_trailing_bytes_of_a_message_are_ignored(fake, sub):
     wire = await fake.subscribed()
     await wire.send(frame(frame(b"first") + b"excess"), string("second"))
     assert [(await sub.get(timeout=5)).data for _ in range(2)] == ["first", "second"]
     assert sub.stats.errors == 0
 
 
-async def test_U8_a_message_of_no_bytes_is_skipped_if_it_cannot_be_one(fake, sub, bystander):
+async def test_an_empty_frame_is_skipped_where_the_type_has_fields(fake, sub, bystander):
     wire = await fake.subscribed()
     await wire.send(frame(b""), string("good"))
     assert (await sub.get(timeout=5)).data == "good"
@@ -206,7 +204,7 @@ async def test_U8_a_message_of_no_bytes_is_skipped_if_it_cannot_be_one(fake, sub
     assert await bystander.is_served()
 
 
-async def test_U8_a_message_of_no_bytes_is_delivered_if_it_can_be_one(node, make_publisher):
+async def test_an_empty_frame_is_delivered_where_the_type_has_no_fields(node, make_publisher):
     empty = await make_publisher("/ticks", "std_msgs/Empty")
     async with node.subscribe("ticks", "std_msgs/Empty") as sub:
         wire = await empty.greeted()
@@ -216,7 +214,7 @@ async def test_U8_a_message_of_no_bytes_is_delivered_if_it_can_be_one(node, make
             await sub.get(timeout=5)
 
 
-async def test_U9_a_string_that_is_not_utf8_is_delivered(fake, sub):
+async def test_a_string_that_is_not_utf8_is_delivered(fake, sub):
     wire = await fake.subscribed()
     await wire.send(frame(frame(b"caf\xe9")), string("good"))
     message = await sub.get(timeout=5)
@@ -224,14 +222,14 @@ async def test_U9_a_string_that_is_not_utf8_is_delivered(fake, sub):
     assert (await sub.get(timeout=5)).data == "good"
 
 
-async def test_U11_many_messages_in_one_segment_behind_the_header(fake, sub):
+async def test_many_messages_in_one_segment_behind_the_header(fake, sub):
     wire = await fake.greeted()
     texts = [f"number {number}" for number in range(100)]
     await wire.send(reply(), *map(string, texts))
     assert [(await sub.get(timeout=5)).data for _ in texts] == texts
 
 
-async def test_U11_messages_byte_by_byte(fake, sub):
+async def test_messages_byte_by_byte(fake, sub):
     wire = await fake.subscribed()
     texts = [f"number {number}" for number in range(5)]
     for byte in b"".join(map(string, texts)):
@@ -240,7 +238,7 @@ async def test_U11_messages_byte_by_byte(fake, sub):
     assert [(await sub.get(timeout=5)).data for _ in texts] == texts
 
 
-async def test_U11_large_messages_behind_the_header(fake, sub):
+async def test_large_messages_behind_the_header(fake, sub):
     """More than a stream reader takes before it stops reading."""
     wire = await fake.greeted()
     texts = ["x" * 3_000_000, "small", "y" * 300_000, "z" * 65_536, "last"]
@@ -255,7 +253,7 @@ async def test_U11_large_messages_behind_the_header(fake, sub):
 @pytest.mark.parametrize(
     "last", [b"", string("x")[:2], string("x")[:-1]], ids=["header", "length", "body"]
 )
-async def test_U10_a_publisher_that_closes_is_connected_again(fake, sub, bystander, how, last):
+async def test_a_publisher_that_closes_is_connected_again(fake, sub, bystander, how, last):
     wire = await fake.subscribed()
     await wire.send(last)
     if how == "close":
@@ -269,7 +267,7 @@ async def test_U10_a_publisher_that_closes_is_connected_again(fake, sub, bystand
     assert await bystander.is_served()
 
 
-async def test_U10_messages_sent_just_before_the_end_arrive(fake, sub):
+async def test_messages_sent_just_before_the_end_arrive(fake, sub):
     wire = await fake.greeted()
     await wire.send(reply(), string("one"), string("two"))
     await wire.close()
@@ -277,7 +275,7 @@ async def test_U10_messages_sent_just_before_the_end_arrive(fake, sub):
     assert await recovers(fake, sub)
 
 
-async def test_U10_no_reconnection_when_the_master_lists_the_publisher_no_more(fake, sub, node):
+async def test_no_reconnection_once_the_master_no_longer_lists_the_publisher(fake, sub, node):
     wire = await fake.subscribed()
     await fake.unregister()
     assert await wire.is_closed()
@@ -287,8 +285,8 @@ async def test_U10_no_reconnection_when_the_master_lists_the_publisher_no_more(f
 
 
 NONSENSE = {
-    "S1 rospy": [0, "no supported protocol implementations", []],
-    "S1 roscpp": [0, "Unknown Error", 0],
+    "none in common, by rospy": [0, "no supported protocol implementations", []],
+    "none in common, by roscpp": [0, "Unknown Error", 0],
     "refused": [-1, "not a publisher", 0],
     "no protocol": [1, "ready", []],
     "no list": [1, "ready", 0],
@@ -310,7 +308,7 @@ NONSENSE = {
 
 
 @pytest.mark.parametrize("answer", NONSENSE.values(), ids=NONSENSE.keys())
-async def test_U12_a_nonsensical_answer_to_request_topic_is_survived(fake, node, bystander, answer):
+async def test_a_nonsensical_answer_to_request_topic_is_survived(fake, node, bystander, answer):
     fake.ready = answer
     async with node.subscribe("chatter", String) as sub:
         await until(lambda: fake.requests)
@@ -319,7 +317,7 @@ async def test_U12_a_nonsensical_answer_to_request_topic_is_survived(fake, node,
         assert await recovers(fake, sub)
 
 
-async def test_U12_a_fault_is_survived(fake, node, bystander, caplog):
+async def test_a_fault_in_answer_to_request_topic_is_survived(fake, node, bystander, caplog):
     def fail():
         raise ValueError("no")
 
@@ -332,7 +330,7 @@ async def test_U12_a_fault_is_survived(fake, node, bystander, caplog):
     caplog.clear()  # the fake one's own complaint
 
 
-async def test_U12_an_announcement_ends_the_waiting_at_once(fake, node, monkeypatch):
+async def test_an_announcement_ends_the_back_off_at_once(fake, node, monkeypatch):
     monkeypatch.setattr(subscription, "Backoff", lambda: Backoff(60.0, 60.0))
     fake.ready = [0, "not yet", []]
     async with node.subscribe("chatter", String) as sub:
@@ -343,7 +341,7 @@ async def test_U12_an_announcement_ends_the_waiting_at_once(fake, node, monkeypa
 
 
 @IMPATIENT
-async def test_U13_a_publisher_that_hangs_in_request_topic_holds_up_nobody(
+async def test_a_publisher_that_hangs_in_request_topic_holds_up_nobody(
     node, fake, make_publisher, bystander
 ):
     fake.hold = asyncio.Event()
@@ -357,9 +355,7 @@ async def test_U13_a_publisher_that_hangs_in_request_topic_holds_up_nobody(
         assert await recovers(fake, sub)
 
 
-async def test_U13_trap_3_a_publisher_that_is_not_there_holds_up_nobody(
-    node, fake, make_publisher, bystander
-):
+async def test_a_publisher_that_is_not_there_holds_up_nobody(node, fake, make_publisher, bystander):
     other = await make_publisher(name="/other")
     with refusing() as port:
         fake.ready = [1, "ready", ["TCPROS", "127.0.0.1", port]]
@@ -371,7 +367,7 @@ async def test_U13_trap_3_a_publisher_that_is_not_there_holds_up_nobody(
             assert await recovers(fake, sub)
 
 
-async def test_U14_the_header_that_a_subscriber_sends(fake, sub):
+async def test_the_header_that_a_subscriber_sends(fake, sub):
     wire = await fake.subscribed()
     assert wire.header == {
         "callerid": "/listener",
@@ -383,12 +379,12 @@ async def test_U14_the_header_that_a_subscriber_sends(fake, sub):
     }
 
 
-async def test_U14_no_delay_is_asked_for_unless_it_is_not_wanted(fake, node):
+async def test_tcp_nodelay_is_asked_for_unless_turned_off(fake, node):
     async with node.subscribe("chatter", String, tcp_nodelay=False):
         assert (await fake.subscribed()).header["tcp_nodelay"] == "0"
 
 
-async def test_U15_a_publisher_that_is_started_again_elsewhere_is_heard(
+async def test_a_publisher_that_is_started_again_elsewhere_is_heard(
     fake, sub, make_publisher, bystander
 ):
     wire = await fake.subscribed()

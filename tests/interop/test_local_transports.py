@@ -61,7 +61,7 @@ async def test_rospy_and_roscpp_pass_over_what_else_they_are_asked_for(
     await world.rospy_ready("talker", topics[0], STRING, world.fields(data="x"))
     await world.roscpp_ready("talker", topics[1], STRING, "0", "10", "0")
     client = XmlRpcClient()
-    extra = [["INTRAPROCESS", "0" * 32], ["UNIXROS", local._host_key() or ""]]
+    extra = [["INTRAPROCESS", "0" * 32], *local.LocalTransports(("unix",), None).offers()]
     try:
         for topic in topics:
             [talker] = await world.who("publishers", topic)

@@ -38,7 +38,7 @@ async def post(master: Master, value: str, key: str = "/k", method: str = "setPa
 # ------------------------------------------------------------------- parameters over HTTP
 
 
-async def test_P1_P2_the_root(ask: Any) -> None:
+async def test_the_root_parameter_takes_only_dicts_and_cannot_be_deleted(ask: Any) -> None:
     assert await ask("setParam", "/c", "/", {"a": 1}) == [1, "parameter / set", 0]
     assert await ask("getParam", "/c", "/") == [1, "Parameter [/]", {"a": 1}]
     assert (await ask("setParam", "/c", "/", 5))[::2] == [-1, 0]
@@ -46,7 +46,7 @@ async def test_P1_P2_the_root(ask: Any) -> None:
     assert await ask("deleteParam", "/c", "/x") == [-1, "parameter [/x] is not set", 0]
 
 
-async def test_P3_P8_keys_are_resolved_by_the_server(ask: Any) -> None:
+async def test_keys_are_resolved_by_the_server(ask: Any) -> None:
     await ask("setParam", "/ns/node", "a//b/", 1)
     await ask("setParam", "/ns/node", "~p", 2)
     assert await ask("getParam", "/c", "/ns/") == [
@@ -56,7 +56,7 @@ async def test_P3_P8_keys_are_resolved_by_the_server(ask: Any) -> None:
     ]
 
 
-async def test_P5_P6_P7_reading(ask: Any) -> None:
+async def test_nothing_lies_below_a_value_and_empty_namespaces_stay(ask: Any) -> None:
     await ask("setParam", "/c", "/a/b", "text")
     assert await ask("hasParam", "/c", "/a/b/c") == [1, "/a/b/c", False]
     assert await ask("getParam", "/c", "/a/b/c") == [-1, "Parameter [/a/b/c] is not set", 0]
@@ -65,7 +65,7 @@ async def test_P5_P6_P7_reading(ask: Any) -> None:
     assert "/a" not in (await ask("getParamNames", "/c"))[2]
 
 
-async def test_P9_names(ask: Any) -> None:
+async def test_parameters_take_any_name_and_topics_refuse_spaces_and_colons(ask: Any) -> None:
     assert (await ask("setParam", "/c", "/a b/ü/1", 1))[0] == 1
     for topic in ("/1abc", "/a-b", "/ü"):
         assert (await ask("registerPublisher", "/p", topic, "a/T", API))[0] == 1
@@ -74,7 +74,7 @@ async def test_P9_names(ask: Any) -> None:
         assert (await ask("registerService", "/p", topic, "rosrpc://h:1", API))[::2] == [-1, 0]
 
 
-async def test_P10_search(ask: Any) -> None:
+async def test_search_param_goes_up_from_the_caller(ask: Any) -> None:
     await ask("setParam", "/c", "/ns/rel", {"x": 1})
     assert (await ask("searchParam", "/ns/node", "rel/y"))[::2] == [1, "/ns/rel/y"]
     assert (await ask("searchParam", "/ns/node", "none"))[::2] == [-1, ""]
@@ -82,7 +82,7 @@ async def test_P10_search(ask: Any) -> None:
     assert (await ask("searchParam", "node", "rel"))[0] == 0
 
 
-async def test_P21_only_a_request_ends_a_registration(ask: Any) -> None:
+async def test_a_parameter_follower_is_known_until_it_unsubscribes(ask: Any) -> None:
     await ask("subscribeParam", "/n", API, "/k")
     await ask("setParam", "/c", "/k", 1)
     await asyncio.sleep(0)
@@ -95,7 +95,7 @@ async def test_P21_only_a_request_ends_a_registration(ask: Any) -> None:
 
 
 @pytest.mark.parametrize("value", ["<int>2147483648</int>", "<i8>5</i8>"])
-async def test_X11_too_long_ints_do_not_get_in(ask: Any, master: Master, value: str) -> None:
+async def test_ints_beyond_32_bits_are_refused(ask: Any, master: Master, value: str) -> None:
     with pytest.raises(XmlRpcFault, match=r"params\[2\]"):
         await post(master, value)
     assert (await ask("getParam", "/c", "/"))[0] == 1
@@ -109,7 +109,7 @@ async def test_X11_too_long_ints_do_not_get_in(ask: Any, master: Master, value: 
         "<struct><member><name>a</name><value><nil/></value></member></struct>",
     ],
 )
-async def test_X12_X13_nil_does_not_get_in(ask: Any, master: Master, value: str) -> None:
+async def test_nil_is_refused(ask: Any, master: Master, value: str) -> None:
     code, text, _ = await post(master, value)
     assert code == -1
     assert "parameter [value]" in text
@@ -118,24 +118,24 @@ async def test_X12_X13_nil_does_not_get_in(ask: Any, master: Master, value: str)
 
 
 @pytest.mark.parametrize("value", ["<int>x</int>", "<boolean>2</boolean>", "&#0;", "<double/>"])
-async def test_X9_X14_X15_bad_values_are_faults(ask: Any, master: Master, value: str) -> None:
+async def test_malformed_values_are_faults(ask: Any, master: Master, value: str) -> None:
     with pytest.raises(XmlRpcFault):
         await post(master, value)
     assert (await ask("getPid", "/c"))[2] == os.getpid()
 
 
-async def test_X18_datetime_is_validated(ask: Any, master: Master) -> None:
+async def test_datetime_is_validated(ask: Any, master: Master) -> None:
     with pytest.raises(XmlRpcFault, match="not a dateTime"):
         await post(master, "<dateTime.iso8601>nope</dateTime.iso8601>")
 
 
-async def test_X19_X20_odd_keys_in_structs(ask: Any) -> None:
+async def test_slashes_and_empty_keys_in_structs_are_kept_as_they_are(ask: Any) -> None:
     await ask("setParam", "/c", "/d", {"x/y": 1, "": 2})
     assert (await ask("getParam", "/c", "/d"))[2] == {"x/y": 1, "": 2}
     assert (await ask("hasParam", "/c", "/d/x"))[2] is False
 
 
-async def test_X21_depth_does_not_poison(ask: Any, master: Master) -> None:
+async def test_values_nested_too_deep_are_refused(ask: Any, master: Master) -> None:
     deep: Any = 1
     for _ in range(97):
         deep = [deep]
@@ -145,7 +145,7 @@ async def test_X21_depth_does_not_poison(ask: Any, master: Master) -> None:
     assert (await ask("getParam", "/c", "/"))[0] == 1
 
 
-async def test_X4_multicall_sees_each_moment(ask: Any) -> None:
+async def test_multicall_runs_its_calls_in_order(ask: Any) -> None:
     """rospy unregisters everything in one request when it ends."""
     set_, get = ("setParam", ["/c", "/m/x"]), ("getParam", ["/c", "/m"])
     calls: list[tuple[str, list[Any]]] = [
@@ -166,7 +166,7 @@ async def test_X4_multicall_sees_each_moment(ask: Any) -> None:
     "method",
     ["getMasterUri", "publisherUpdate", "requestTopic", "system.listMethods", "__init__", "_api"],
 )
-async def test_X3_X5_methods_that_rosmaster_has_not(ask: Any, method: str) -> None:
+async def test_methods_that_rosmaster_lacks_are_faults(ask: Any, method: str) -> None:
     with pytest.raises(XmlRpcFault, match="is not supported"):
         await ask(method, "/c")
 
@@ -198,7 +198,9 @@ async def test_X3_X5_methods_that_rosmaster_has_not(ask: Any, method: str) -> No
         ("unsubscribeParam", 0),
     ],
 )
-async def test_X6_requests_that_are_refused(ask: Any, method: str, failure: Any) -> None:
+async def test_missing_and_surplus_parameters_are_refused(
+    ask: Any, method: str, failure: Any
+) -> None:
     assert await ask(method) == [-1, "missing required caller_id parameter", failure]
     assert await ask(method, *["/c"] * 9) == [-1, "Error: bad call arity", failure]
 
@@ -206,7 +208,7 @@ async def test_X6_requests_that_are_refused(ask: Any, method: str, failure: Any)
 # ------------------------------------------------------------------- the graph
 
 
-async def test_G3_G14_the_graph(ask: Any) -> None:
+async def test_system_state_topic_types_and_services(ask: Any) -> None:
     assert (await ask("unregisterPublisher", "/nobody", "/t", API))[::2] == [1, 0]
     await ask("registerPublisher", "/p", "/t", "a/T", API)
     await ask("registerSubscriber", "/s", "/t", "*", API)
@@ -221,18 +223,18 @@ async def test_G3_G14_the_graph(ask: Any) -> None:
 
 
 @pytest.mark.parametrize("topic_type", ["String", "a/b/c", "", 5])
-async def test_G6_types_that_are_refused(ask: Any, topic_type: Any) -> None:
+async def test_malformed_types_are_refused(ask: Any, topic_type: Any) -> None:
     assert (await ask("registerPublisher", "/p", "/t", topic_type, API))[::2] == [-1, []]
     assert (await ask("registerSubscriber", "/p", "/t", topic_type, API))[::2] == [-1, []]
 
 
 @pytest.mark.parametrize("api", ["https://h:1/", "", 5, "h:1"])
-async def test_G7_uris_that_are_refused(ask: Any, api: Any) -> None:
+async def test_malformed_uris_are_refused(ask: Any, api: Any) -> None:
     assert (await ask("registerPublisher", "/p", "/t", "a/T", api))[::2] == [-1, []]
     assert (await ask("registerService", "/p", "/t", "rosrpc://h:1", api))[::2] == [-1, 0]
 
 
-async def test_G12_G13_names_relative_to_the_caller(ask: Any) -> None:
+async def test_names_are_resolved_relative_to_the_caller(ask: Any) -> None:
     await ask("registerPublisher", "/ns/p", "t", "a/T", API)
     await ask("registerPublisher", "/ns/p", "/nst", "a/T", API)
     assert (await ask("getPublishedTopics", "/c", "/ns"))[2] == [["/ns/t", "a/T"]]
@@ -240,7 +242,7 @@ async def test_G12_G13_names_relative_to_the_caller(ask: Any) -> None:
     assert (await ask("lookupNode", "/ns/other", "p"))[2] == API
 
 
-async def test_H12_uris_are_kept_as_given(ask: Any) -> None:
+async def test_uris_are_kept_as_given(ask: Any) -> None:
     await ask("registerPublisher", "/a", "/t", "a/T", "http://h:1")
     await ask("registerPublisher", "/b", "/t", "a/T", "http://h:1/")
     assert (await ask("registerSubscriber", "/s", "/t", "a/T", API))[2] == [

@@ -14,7 +14,7 @@ from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.server import XmlRpcServer
 
 
-async def test_G1_the_old_node_is_told_to_end_and_its_subscribers_are_told(
+async def test_the_old_node_is_told_to_end_and_its_subscribers_are_told(
     ask: Any, make_node: Any
 ) -> None:
     old, new, sub = [await make_node(name) for name in ("/dup", "/dup", "/sub")]
@@ -33,7 +33,7 @@ async def test_G1_the_old_node_is_told_to_end_and_its_subscribers_are_told(
     assert (await ask("lookupNode", "/c", "/dup"))[2] == new.uri
 
 
-async def test_G8_G9_every_change_of_the_publishers_is_told(ask: Any, make_node: Any) -> None:
+async def test_subscribers_are_told_of_every_change_of_publishers(ask: Any, make_node: Any) -> None:
     sub = await make_node("/sub")
     await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
     for count, (method, params, publishers) in enumerate(
@@ -53,7 +53,7 @@ async def test_G8_G9_every_change_of_the_publishers_is_told(ask: Any, make_node:
         )
 
 
-async def test_G10_nodes_that_hang_delay_nobody(master: Master, make_node: Any) -> None:
+async def test_nodes_that_hang_delay_nobody(master: Master, make_node: Any) -> None:
     """They accept connections and never answer; some of them do not even accept."""
     client = XmlRpcClient()
     silent = []
@@ -113,7 +113,7 @@ async def test_hundreds_of_nodes_leave_time_for_others() -> None:
     await notifier.close()
 
 
-async def test_G10_a_node_that_hangs_gets_the_newest_list_and_only_that(
+async def test_a_node_that_hangs_gets_the_newest_list_and_only_that(
     ask: Any, make_node: Any
 ) -> None:
     sub = await make_node("/sub")
@@ -128,7 +128,9 @@ async def test_G10_a_node_that_hangs_gets_the_newest_list_and_only_that(
     assert len(sub.told) <= 4
 
 
-async def test_G10_what_was_not_answered_in_time_is_told_again(ask: Any, make_node: Any) -> None:
+async def test_an_update_that_is_not_answered_in_time_is_sent_again(
+    ask: Any, make_node: Any
+) -> None:
     sub = await make_node("/sub")
     sub.hold = asyncio.Event()
     await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
@@ -138,7 +140,7 @@ async def test_G10_what_was_not_answered_in_time_is_told_again(ask: Any, make_no
     sub.hold.set()
 
 
-async def test_G10_a_node_that_has_left_is_not_told_again(
+async def test_a_node_that_has_left_is_not_told_again(
     ask: Any, make_node: Any, master: Master
 ) -> None:
     sub = await make_node("/sub")
@@ -151,7 +153,7 @@ async def test_G10_a_node_that_has_left_is_not_told_again(
     assert len(sub.told) == 1
 
 
-async def test_G11_dead_nodes_stay_registered(ask: Any) -> None:
+async def test_dead_nodes_stay_registered(ask: Any) -> None:
     with socket.socket() as sock:
         sock.bind(("127.0.0.1", 0))
         dead = f"http://127.0.0.1:{sock.getsockname()[1]}/"
@@ -161,7 +163,7 @@ async def test_G11_dead_nodes_stay_registered(ask: Any) -> None:
     assert (await ask("getSystemState", "/c"))[2][1] == [["/t", ["/dead"]]]
 
 
-async def test_G15_lists_arrive_in_order(ask: Any, make_node: Any) -> None:
+async def test_publisher_lists_arrive_in_order(ask: Any, make_node: Any) -> None:
     sub = await make_node("/sub")
     await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
     await asyncio.gather(
@@ -181,23 +183,25 @@ async def follow(ask: Any, node: Any, key: str) -> Any:
     return value
 
 
-async def test_P11_unset_parameters_can_be_followed(ask: Any, make_node: Any) -> None:
+async def test_unset_parameters_can_be_followed(ask: Any, make_node: Any) -> None:
     node = await make_node("/n")
     assert await follow(ask, node, "/unset") == {}
     await ask("setParam", "/c", "/unset", 5)
     assert await node.has_been_told(1) == [("paramUpdate", "/master", "/unset/", 5)]
 
 
-async def test_P12_P13_P14_P15_P17_what_a_follower_is_told(ask: Any, make_node: Any) -> None:
+async def test_a_follower_is_told_of_its_key_its_parents_and_its_children(
+    ask: Any, make_node: Any
+) -> None:
     node = await make_node("/n")
     await follow(ask, node, "/q/r")
     steps: list[tuple[str, str, Any, Any]] = [
         ("setParam", "/q/r", {"a": 1}, ("/q/r/", {"a": 1})),
-        ("setParam", "/q/r", {"a": 1}, ("/q/r/", {"a": 1})),  # P17
-        ("setParam", "/q/r/c", 5, ("/q/r/c/", 5)),  # P13
-        ("setParam", "/q", {"r": 7, "s": 8}, ("/q/r/", 7)),  # P14
-        ("setParam", "/q", {"s": 8}, ("/q/r/", {})),  # P14
-        ("setParam", "/q/rr", 1, None),  # P15
+        ("setParam", "/q/r", {"a": 1}, ("/q/r/", {"a": 1})),  # the same again
+        ("setParam", "/q/r/c", 5, ("/q/r/c/", 5)),  # a child
+        ("setParam", "/q", {"r": 7, "s": 8}, ("/q/r/", 7)),  # a parent
+        ("setParam", "/q", {"s": 8}, ("/q/r/", {})),  # a parent without it
+        ("setParam", "/q/rr", 1, None),  # a key that begins alike
         ("setParam", "/q/r", "x", ("/q/r/", "x")),
         ("deleteParam", "/q/r", None, ("/q/r/", {})),
         ("setParam", "/q/r", "y", ("/q/r/", "y")),
@@ -214,7 +218,7 @@ async def test_P12_P13_P14_P15_P17_what_a_follower_is_told(ask: Any, make_node: 
     assert node.told == expected
 
 
-async def test_P16_the_setter_is_not_told(ask: Any, make_node: Any) -> None:
+async def test_the_node_that_sets_a_parameter_is_not_told(ask: Any, make_node: Any) -> None:
     node, other = await make_node("/n"), await make_node("/other")
     await follow(ask, node, "/k")
     await follow(ask, other, "/k")
@@ -224,7 +228,7 @@ async def test_P16_the_setter_is_not_told(ask: Any, make_node: Any) -> None:
     await other.until(lambda: other.told[-1][3] == 2)
 
 
-async def test_P18_unsubscribed_followers_are_not_told(ask: Any, make_node: Any) -> None:
+async def test_unsubscribed_followers_are_not_told(ask: Any, make_node: Any) -> None:
     node, other = await make_node("/n"), await make_node("/other")
     await follow(ask, node, "/k")
     await follow(ask, other, "/k")
@@ -235,7 +239,7 @@ async def test_P18_unsubscribed_followers_are_not_told(ask: Any, make_node: Any)
     assert node.told == []
 
 
-async def test_P19_a_node_that_answers_it_does_not_follow_is_forgotten(
+async def test_a_node_that_answers_it_does_not_follow_is_forgotten(
     ask: Any, make_node: Any
 ) -> None:
     node = await make_node("/n")
@@ -252,7 +256,7 @@ async def test_P19_a_node_that_answers_it_does_not_follow_is_forgotten(
     assert len(node.told) == 2
 
 
-async def test_P13_the_order_of_overlapping_updates_is_kept(ask: Any, make_node: Any) -> None:
+async def test_the_order_of_overlapping_updates_is_kept(ask: Any, make_node: Any) -> None:
     """Whatever is merged while the node is busy, the last word is the last one said."""
     node = await make_node("/n")
     node.hold = asyncio.Event()

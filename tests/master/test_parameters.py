@@ -23,7 +23,7 @@ def tree(root: dict[str, Any], **options: Any) -> ParameterTree:
     return made
 
 
-def test_P1_the_root_is_a_namespace() -> None:
+def test_the_root_is_a_namespace() -> None:
     made = tree({"a": 1})
     made.set("/", {"b": 2})
     assert made.get("/") == {"b": 2}
@@ -33,20 +33,20 @@ def test_P1_the_root_is_a_namespace() -> None:
 
 
 @pytest.mark.parametrize("key", ["/", "/nope", "/a/b", "/s/below", "/s/below/more"])
-def test_P2_P5_what_cannot_be_deleted(key: str) -> None:
+def test_deleting_the_root_or_an_unset_key_raises_key_error(key: str) -> None:
     made = tree({"a": {}, "s": "text"})
     with pytest.raises(KeyError):
         made.delete(key)
     assert made.get("/") == {"a": {}, "s": "text"}
 
 
-def test_P4_a_value_in_the_way_becomes_a_namespace() -> None:
+def test_a_value_in_the_way_becomes_a_namespace() -> None:
     made = tree({"s": "text"})
     made.set("/s/a/b", 1)
     assert made.get("/s") == {"a": {"b": 1}}
 
 
-def test_P5_below_a_value_there_is_nothing() -> None:
+def test_below_a_value_there_is_nothing() -> None:
     made = tree({"s": "text", "l": [1]})
     for key in ("/s/x", "/l/0", "/s/x/y"):
         assert not made.has(key)
@@ -54,7 +54,7 @@ def test_P5_below_a_value_there_is_nothing() -> None:
             made.get(key)
 
 
-def test_P6_empty_namespaces_stay() -> None:
+def test_empty_namespaces_stay() -> None:
     made = tree({"a": {"b": {"c": 1}}})
     made.delete("/a/b/c")
     assert made.get("/a") == {"b": {}}
@@ -62,7 +62,7 @@ def test_P6_empty_namespaces_stay() -> None:
     assert made.names() == []
 
 
-def test_P7_subtrees() -> None:
+def test_a_namespace_is_read_as_a_dict() -> None:
     made = tree({"a": {"b": 1}, "c": [{"d": 2}]})
     assert made.get("/a") == {"b": 1}
     assert made.names() == ["/a/b", "/c"]
@@ -83,18 +83,20 @@ def test_P7_subtrees() -> None:
         ("/ns/node", "/rel", None),
     ],
 )
-def test_P10_search(caller_id: str, key: str, expected: str | None) -> None:
+def test_search_goes_up_from_the_namespace_of_the_caller(
+    caller_id: str, key: str, expected: str | None
+) -> None:
     made = tree({"ns": {"node": {"priv": 1}, "rel": {"x": 2}}, "top": 3})
     assert made.search(caller_id, key) == expected
 
 
 @pytest.mark.parametrize(("caller_id", "key"), [("/n", "~a"), ("/n", ""), ("n", "a"), ("", "a")])
-def test_P10_search_for_what_cannot_be(caller_id: str, key: str) -> None:
+def test_search_with_an_invalid_key_or_caller_is_refused(caller_id: str, key: str) -> None:
     with pytest.raises(ValueError, match=r"invalid key|must be global"):
         tree({"a": 1}).search(caller_id, key)
 
 
-def test_X21_the_whole_tree_is_bounded() -> None:
+def test_the_depth_of_the_whole_tree_is_bounded() -> None:
     made = tree({}, max_depth=4)
     made.set("/a/b/c/d", 1)
     made.set("/a/b/c", [1])
@@ -143,14 +145,14 @@ def told(
     return sorted((update.caller_id, update.key, update.value) for update in updates)
 
 
-def test_P12_keys_have_a_slash_at_the_end() -> None:
+def test_keys_of_updates_end_in_a_slash() -> None:
     assert told({"/q/r": "n"}, "/q/r", 5) == [("n", "/q/r/", 5)]
     assert param_updates({"/q/": {"n": "http://n"}}, "/q", 1) == [
         ParamUpdate("http://n", "n", "/q/", 1)
     ]
 
 
-def test_P13_a_follower_is_told_of_children() -> None:
+def test_a_follower_is_told_of_children() -> None:
     assert told({"/q/r": "n", "/": "root"}, "/q/r/c", 5) == [
         ("n", "/q/r/c/", 5),
         ("root", "/q/r/c/", 5),
@@ -168,16 +170,16 @@ def test_P13_a_follower_is_told_of_children() -> None:
         ("/q", "a value in place of the namespace", {}),
     ],
 )
-def test_P14_a_follower_is_told_its_part_of_a_parent(key: str, value: Any, expected: Any) -> None:
+def test_a_follower_is_told_only_its_part_of_a_parent(key: str, value: Any, expected: Any) -> None:
     assert told({"/q/r": "n"}, key, value) == [("n", "/q/r/", expected)]
 
 
-def test_P15_siblings_are_not_mixed_up() -> None:
+def test_siblings_are_not_mixed_up() -> None:
     assert told({"/q/r": "n"}, "/q/rr", 5) == []
     assert told({"/q/rr": "n"}, "/q/r", {}) == []
 
 
-def test_P16_the_setter_is_not_told() -> None:
+def test_the_node_that_sets_a_parameter_is_not_told() -> None:
     assert told({"/q/r": "n", "/q": "m"}, "/q/r", 5, setter="n") == [("m", "/q/r/", 5)]
 
 
@@ -185,7 +187,7 @@ def test_nobody_follows() -> None:
     assert param_updates({}, "/q", 1) == []
 
 
-def test_X19_keys_with_slashes_reach_nobody() -> None:
+def test_struct_keys_with_slashes_are_not_paths() -> None:
     assert told({"/d/x/y": "n"}, "/d", {"x/y": 1}) == [("n", "/d/x/y/", {})]
 
 
@@ -196,7 +198,7 @@ def test_subscription_keys(key: str, expected: str) -> None:
     assert subscription_key(key) == expected
 
 
-def test_X13_nils_are_found() -> None:
+def test_nils_are_found() -> None:
     assert holds_nil(None)
     assert holds_nil({"a": [1, {"b": None}]})
     assert not holds_nil({"a": [1, {"b": {}}], "": 0})

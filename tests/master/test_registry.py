@@ -16,7 +16,7 @@ def state(registry: Registry) -> Any:
     return registry.system_state()[2]
 
 
-def test_G8_subscribers_are_told_of_every_registration() -> None:
+def test_subscribers_are_told_of_every_registration() -> None:
     registry = Registry()
     assert registry.register_subscriber("/s", "/t", "a/T", A) == ((1, "Subscribed to [/t]", []), [])
     answer, told = registry.register_publisher("/p", "/t", "a/T", B)
@@ -26,7 +26,7 @@ def test_G8_subscribers_are_told_of_every_registration() -> None:
     assert state(registry) == [[["/t", ["/p"]]], [["/t", ["/s"]]], []]
 
 
-def test_G9_subscribers_are_told_of_the_last_publisher_leaving() -> None:
+def test_subscribers_are_told_of_the_last_publisher_leaving() -> None:
     registry = Registry()
     registry.register_publisher("/p", "/t", "a/T", B)
     registry.register_subscriber("/s", "/t", "a/T", A)
@@ -36,7 +36,7 @@ def test_G9_subscribers_are_told_of_the_last_publisher_leaving() -> None:
     assert registry.lookup_node("/p") == (-1, "unknown node [/p]", "")
 
 
-def test_G1_a_new_node_of_the_same_name_takes_everything() -> None:
+def test_a_new_node_of_the_same_name_takes_everything() -> None:
     registry = Registry()
     registry.register_subscriber("/s", "/t", "a/T", A)
     registry.register_publisher("/dup", "/t", "a/T", B)
@@ -54,7 +54,7 @@ def test_G1_a_new_node_of_the_same_name_takes_everything() -> None:
     assert not registry.knows_api(B)
 
 
-def test_G2_others_unregister_nothing() -> None:
+def test_others_unregister_nothing() -> None:
     registry = Registry()
     registry.register_publisher("/p", "/t", "a/T", A)
     registry.register_publisher("/q", "/t", "a/T", B)
@@ -63,7 +63,7 @@ def test_G2_others_unregister_nothing() -> None:
     assert state(registry)[0] == [["/t", ["/p", "/q"]]]
 
 
-def test_G4_the_last_provider_wins() -> None:
+def test_the_last_provider_wins() -> None:
     registry = Registry()
     registry.register_service("/n1", "/s", "rosrpc://a:2", A)
     registry.register_service("/n2", "/s", "rosrpc://b:2", B)
@@ -78,7 +78,7 @@ def test_G4_the_last_provider_wins() -> None:
     assert registry.lookup_service("/s") == (-1, "no provider", "")
 
 
-def test_G5_types() -> None:
+def test_the_type_of_the_last_publisher_wins_and_is_kept() -> None:
     registry = Registry()
     registry.register_subscriber("/s", "/t", "*", A)
     assert registry.topic_types()[2] == []
@@ -96,7 +96,7 @@ def test_G5_types() -> None:
     assert registry.published_topics("") == (1, "current topics", [["/only", "*"]])
 
 
-def test_P21_a_node_that_only_follows_parameters_is_known_until_it_stops() -> None:
+def test_a_node_that_only_follows_parameters_is_known_until_it_stops() -> None:
     registry = Registry()
     registry.register_param_subscriber("/n", "/k/", A)
     assert registry.lookup_node("/n") == (1, "node api", A)

@@ -297,7 +297,7 @@ async def test_what_nobody_has_asked_for_ends_a_connection() -> None:
 
 
 @pytest.mark.parametrize("answer", [b"H", b"HTTP/1.1 200 OK\r\n", KEEPING["roscpp"][:-1]])
-async def test_H2_what_was_begun_to_be_answered_is_not_sent_again(answer: bytes) -> None:
+async def test_a_request_whose_answer_has_begun_is_not_sent_again(answer: bytes) -> None:
     class Half(Serving):
         async def respond(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
             if len(self.requests) > 1:
@@ -312,7 +312,7 @@ async def test_H2_what_was_begun_to_be_answered_is_not_sent_again(answer: bytes)
     assert len(serving.requests) == 2
 
 
-async def test_H2_what_cannot_be_sent_again_is_lost() -> None:
+async def test_a_request_that_cannot_be_repeated_fails() -> None:
     """Nobody listens any more when the kept connection turns out to be closed."""
     servers: list[asyncio.Server] = []
 

@@ -15,7 +15,7 @@ async def pair(make_node):
     return await make_node("setter"), await make_node("follower")
 
 
-async def test_P20_a_scalar_that_becomes_a_dict_leaf_by_leaf(pair):
+async def test_a_followed_scalar_becomes_a_dict_leaf_by_leaf(pair):
     """As ``rosparam set`` does it: one update for each leaf, below what was a number."""
     setter, follower = pair
     await setter.set_param("/k", 5)

@@ -104,14 +104,21 @@ async def test_a_provider_of_another_type_comes_after(make_node):
 
 
 @contextlib.asynccontextmanager
-async def provider_that_says(node: aioros1.Node, *rows: str | None) -> AsyncIterator[None]:
-    """A registered provider that answers every header with ``rows``, or not at all."""
+async def provider_that_says(
+    node: aioros1.Node, *rows: str | None
+) -> AsyncIterator[asyncio.Event]:
+    """A registered provider that answers every header with ``rows``, or not at all.
+
+    The event is set once the first header is there.
+    """
     held: set[asyncio.StreamWriter] = set()
+    asked = asyncio.Event()
 
     async def answer(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         held.add(writer)
         (length,) = struct.unpack("<I", await reader.readexactly(4))
         await reader.readexactly(length)
+        asked.set()
         if rows != (None,):
             fields = [str(row).encode() for row in rows]
             body = b"".join(struct.pack("<I", len(field)) + field for field in fields)
@@ -121,7 +128,7 @@ async def provider_that_says(node: aioros1.Node, *rows: str | None) -> AsyncIter
     uri = f"rosrpc://127.0.0.1:{server.sockets[0].getsockname()[1]}"
     await node.master.register_service("/odd", uri, node.uri)
     try:
-        yield
+        yield asked
     finally:
         server.close()
         for writer in held:
@@ -160,22 +167,18 @@ async def test_the_timeout_covers_the_question_for_the_type(make_node):
 async def test_closing_the_node_ends_the_question(make_node, ask):
     node = await make_node(timeouts=aioros1.Timeouts(handshake=60))
     other = await make_node("other")
-    async with provider_that_says(other, None):
+    async with provider_that_says(other, None) as asked:
         if ask == "is_available":
             asking = (await node.service_caller("odd", SetBool)).is_available()
         else:
             asking = getattr(node, ask)("odd")
-
-        async def until_asked() -> None:
-            while not node._roles.probes:
-                await asyncio.sleep(0)
 
         async def wait() -> object:
             return await asking
 
         task = asyncio.create_task(wait())
         async with asyncio.timeout(5):
-            await until_asked()
+            await asked.wait()
             await node.close()
             with pytest.raises(aioros1.ClosedError):
                 await task

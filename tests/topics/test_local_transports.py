@@ -505,7 +505,7 @@ async def test_another_host_is_answered_with_tcp(make_node, ask):
             ["UNIXROS", "0" * 32],
             ["UNIXROS"],
             ["UNIXROS", 5],
-            ["UNIXROS", local._host_key(), "more"],
+            [*offer_of("unix"), "more"],
             ["INTRAPROCESS", "0" * 32],
             ["INTRAPROCESS", ["?"]],
             ["SOMETHING", "else"],
@@ -514,25 +514,40 @@ async def test_another_host_is_answered_with_tcp(make_node, ask):
             assert answer == [1, "ready", tcp]
         code, _, value = await ask(node, "requestTopic", "/chatter", [["UNIXROS", "0" * 32]])
         assert (code, value) == (0, [])
-        _, _, value = await ask(
-            node, "requestTopic", "/chatter", [["TCPROS"], ["UNIXROS", local._host_key()]]
-        )
+        wanted = [["TCPROS"], offer_of("unix")]
+        _, _, value = await ask(node, "requestTopic", "/chatter", wanted)
         assert value[0] == "UNIXROS"
 
 
 @needs_abstract_sockets
 async def test_a_node_that_is_closed_leaves_no_socket(make_node, ask):
     node = await make_node("talker", local_transports=("intraprocess", "unix"))
-    place = local._place()
-    assert node._acceptor._listener in place.listeners.values()
+    answers = []
     async with node.advertise("chatter", String):
-        _, _, [_, name] = await ask(
-            node, "requestTopic", "/chatter", [["TCPROS"], ["UNIXROS", local._host_key()]]
-        )
+        for transport in ("unix", "intraprocess"):
+            wanted = [["TCPROS"], offer_of(transport)]
+            _, _, answer = await ask(node, "requestTopic", "/chatter", wanted)
+            stream = await a_subscriber(transport).connect(answer)
+            stream.transport.abort()
+            answers.append(answer)
+        name = answers[0][1]
         assert await asyncio.to_thread(is_listed, name)
     await node.close()
     assert not await asyncio.to_thread(is_listed, name)
-    assert node._acceptor._listener not in place.listeners.values()
+    for transport, answer in zip(("unix", "intraprocess"), answers, strict=True):
+        with pytest.raises(ConnectionError):
+            await a_subscriber(transport).connect(answer)
+
+
+def a_subscriber(transport):
+    """The subscriber's side of a local transport, without a node."""
+    return local.LocalTransports((transport,), None)
+
+
+def offer_of(transport):
+    """What a subscriber of this loop asks for to be connected over ``transport``."""
+    [offer] = a_subscriber(transport).offers()
+    return offer
 
 
 def is_listed(name: str) -> bool:

@@ -114,7 +114,7 @@ def test_a_large_frame_is_received_into_memory_of_its_own():
     assert receiver.bodies == [body, b"next"]
 
 
-def test_U4_the_frames_before_one_beyond_the_limit_are_delivered_first():
+def test_the_frames_before_one_beyond_the_limit_are_delivered_first():
     receiver = Receiver(max_bytes=100)
     good = bodies_of(1, 100, 0)
     with pytest.raises(FrameError, match="a message of 4294967295 bytes, more than 100"):
@@ -123,7 +123,7 @@ def test_U4_the_frames_before_one_beyond_the_limit_are_delivered_first():
     assert receiver.receiver.frames_received == 3
 
 
-def test_U4_the_limit_itself_is_allowed_and_one_more_is_not():
+def test_the_limit_itself_is_allowed_and_one_more_is_not():
     receiver = Receiver(max_bytes=2 * SCRATCH)
     receiver.read(frame(bytes(2 * SCRATCH)))
     with pytest.raises(FrameError):
@@ -131,7 +131,7 @@ def test_U4_the_limit_itself_is_allowed_and_one_more_is_not():
     assert receiver.bodies == [bytes(2 * SCRATCH)]
 
 
-def test_U5_trap_19_memory_grows_with_the_bytes_that_come_and_not_with_the_length():
+def test_memory_grows_with_the_bytes_that_come_and_not_with_the_length():
     receiver = Receiver(max_bytes=1_000_000_000)
     announced = struct.pack("<I", 900_000_000)
     tracemalloc.start()

@@ -68,7 +68,7 @@ class TestEverySide:
         assert caught.value.peer == "peer:1"
 
     @pytest.mark.parametrize("length", [0, 1 << 20 | 1, 0xFFFF_FFFF])
-    def test_T12_T14_a_bad_length_is_an_error_in_both_ways_of_reading(self, make, length):
+    def test_a_length_of_zero_or_beyond_the_limit_is_an_error(self, make, length):
         prefix = struct.pack("<I", length)
         with pytest.raises(HandshakeError, match="header"):
             make().receive_data(prefix)
@@ -79,21 +79,21 @@ class TestEverySide:
             side.receive_data(prefix[3:])
 
     @pytest.mark.parametrize("body", [b"\x00\x00\x00\x00", b"\x03\x00\x00\x00abc", b"\xff\0\0\0a"])
-    def test_T10_T15_a_bad_field_is_an_error(self, make, body):
+    def test_a_bad_field_is_an_error(self, make, body):
         with pytest.raises(HandshakeError, match="bad connection header"):
             make().receive_data(struct.pack("<I", len(body)) + body)
 
 
 @pytest.mark.parametrize("make", [topic_client, service_client])
 @pytest.mark.parametrize("text", ["no such topic", "", "caf\udce9"])
-def test_trap_13_an_error_in_the_header_is_raised_with_its_text(make, text):
+def test_an_error_in_the_header_is_raised_with_its_text(make, text):
     with pytest.raises(HandshakeError) as caught:
         make().receive_data(encode_header({"error": text}))
     assert (caught.value.peer, caught.value.text) == ("peer:1", text)
 
 
 @pytest.mark.parametrize("make", [topic_client, service_client])
-def test_trap_13_an_error_counts_whatever_else_the_header_holds(make):
+def test_an_error_counts_whatever_else_the_header_holds(make):
     with pytest.raises(HandshakeError, match="overloaded"):
         make().receive_data(encode_header({**REPLY, "md5sum": "*", "error": "overloaded"}))
 
@@ -101,7 +101,7 @@ def test_trap_13_an_error_counts_whatever_else_the_header_holds(make):
 # a subscriber
 
 
-def test_U14_what_a_subscriber_sends():
+def test_the_header_of_a_subscriber():
     assert fields(topic_client().data_to_send()) == {
         "callerid": "/listener",
         "md5sum": MD5,
@@ -153,19 +153,19 @@ def test_any_md5sum_fits_on_either_side(wanted, theirs):
 
 
 @pytest.mark.parametrize("theirs", [OTHER_MD5, MD5.upper(), ""])
-def test_U1_a_publisher_of_another_definition_is_refused(theirs):
+def test_a_publisher_of_another_definition_is_refused(theirs):
     with pytest.raises(HandshakeError, match=f"md5sum {theirs} there.*md5sum {MD5} here"):
         topic_client().receive_data(encode_header({**REPLY, "md5sum": theirs}))
 
 
 @pytest.mark.parametrize("missing", ["md5sum", "type"])
-def test_U2_a_publisher_that_does_not_say_what_it_publishes_is_refused(missing):
+def test_a_publisher_that_does_not_say_what_it_publishes_is_refused(missing):
     reply = {name: value for name, value in REPLY.items() if name != missing}
     with pytest.raises(HandshakeError, match=f"its header has no {missing}"):
         topic_client().receive_data(encode_header(reply))
 
 
-def test_T3_a_publisher_of_the_same_definition_by_another_name_is_accepted():
+def test_a_publisher_of_the_same_definition_by_another_name_is_accepted():
     client = topic_client()
     assert client.receive_data(encode_header({**REPLY, "type": "renamed_msgs/String"}))
     assert client.agreed.type == "renamed_msgs/String"
@@ -200,13 +200,13 @@ def test_a_service_caller_says_so_only_if_it_is_persistent_or_a_probe(option):
     ],
     ids=["rospy", "roscpp", "any", "only a name"],
 )
-def test_V5_any_server_header_without_an_error_is_accepted(reply):
+def test_any_answer_of_a_service_without_an_error_is_accepted(reply):
     client = service_client()
     assert client.receive_data(encode_header(reply))
     assert client.header == reply
 
 
-def test_V2_a_service_of_another_definition_is_refused():
+def test_a_service_of_another_definition_is_refused():
     with pytest.raises(HandshakeError, match=f"md5sum {OTHER_MD5} there"):
         service_client().receive_data(encode_header({"md5sum": OTHER_MD5, "type": "a/B"}))
 
@@ -236,19 +236,19 @@ def test_a_service_caller_is_recognised():
     assert (server.topic, server.service, server.caller_id) == (None, "/flip", "/caller")
 
 
-def test_V14_a_header_that_names_both_means_the_service():
+def test_a_header_that_names_both_means_the_service():
     server = served({**CALLER, "topic": "/chatter"})
     assert (server.topic, server.service) == (None, "/flip")
 
 
 @pytest.mark.parametrize("header", [SUBSCRIBER, CALLER], ids=["topic", "service"])
 @pytest.mark.parametrize("missing", ["callerid", "md5sum"])
-def test_T4_V2_a_header_without_caller_or_md5sum_is_refused(header, missing):
+def test_a_header_without_caller_or_md5sum_is_refused(header, missing):
     with pytest.raises(HandshakeError, match=f"the connection header has no {missing}"):
         served(without(header, missing))
 
 
-def test_T6_a_header_without_topic_and_service_is_refused():
+def test_a_header_without_topic_and_service_is_refused():
     with pytest.raises(HandshakeError, match="neither topic nor service"):
         served(without(SUBSCRIBER, "topic"))
 
@@ -263,16 +263,16 @@ def test_an_error_names_the_caller_once_it_is_known():
 @pytest.mark.parametrize(
     ("value", "expected"), [("1", True), ("true", True), ("True", True), ("0", False), ("", False)]
 )
-def test_V3_V6_persistent_and_probe(name, value, expected):
+def test_values_of_persistent_and_probe(name, value, expected):
     assert getattr(served({**CALLER, name: value}), name) is expected
 
 
 @pytest.mark.parametrize("name", ["persistent", "probe"])
-def test_V3_V6_neither_persistent_nor_a_probe_unless_said(name):
+def test_persistent_and_probe_are_off_by_default(name):
     assert getattr(served(CALLER), name) is False
 
 
-def test_T21_the_answer_to_a_subscriber():
+def test_the_answer_to_a_subscriber():
     answer = fields(served(SUBSCRIBER).accept_topic("/talker", CHATTER))
     assert answer == {
         "callerid": "/talker",
@@ -284,7 +284,7 @@ def test_T21_the_answer_to_a_subscriber():
     }
 
 
-def test_T20_the_answer_says_that_the_topic_is_latched():
+def test_the_answer_says_that_the_topic_is_latched():
     latched = TopicOffer("/chatter", "std_msgs/String", MD5, "string data\n", latching=True)
     assert fields(served(SUBSCRIBER).accept_topic("/talker", latched))["latching"] == "1"
 
@@ -302,16 +302,16 @@ def test_fields_of_the_user_never_replace_the_standard_ones():
         {**SUBSCRIBER, "type": "renamed_msgs/String"},
         without(SUBSCRIBER, "type"),
     ],
-    ids=["T1 any type", "T3 another name", "T5 no type"],
+    ids=["any type", "another name", "no type"],
 )
-def test_T1_T3_T5_subscribers_that_are_accepted(header):
+def test_subscribers_of_any_of_another_and_of_no_type_are_accepted(header):
     answer = fields(served(header).accept_topic("/talker", CHATTER))
     assert (answer["type"], answer["md5sum"]) == ("std_msgs/String", MD5)
 
 
 @pytest.mark.parametrize("md5sum", [OTHER_MD5, MD5.upper(), ""])
 @pytest.mark.parametrize("type", ["std_msgs/String", None])
-def test_T2_a_subscriber_that_means_another_definition_is_refused(md5sum, type):
+def test_a_subscriber_with_another_md5sum_is_refused(md5sum, type):
     header = {**SUBSCRIBER, "md5sum": md5sum}
     server = served(header if type else without(header, "type"))
     with pytest.raises(HandshakeError) as caught:
@@ -320,7 +320,7 @@ def test_T2_a_subscriber_that_means_another_definition_is_refused(md5sum, type):
         assert word in caught.value.text
 
 
-def test_V5_the_answer_to_a_service_caller_has_what_rospy_and_roscpp_send():
+def test_the_answer_to_a_service_caller_has_the_fields_of_rospy_and_of_roscpp():
     assert fields(served(CALLER).accept_service("/server", FLIP)) == {
         "callerid": "/server",
         "md5sum": FLIP.md5sum,
@@ -331,14 +331,14 @@ def test_V5_the_answer_to_a_service_caller_has_what_rospy_and_roscpp_send():
     }
 
 
-def test_V1_a_caller_of_any_type_is_accepted():
+def test_a_caller_of_any_type_is_accepted():
     answer = served({**CALLER, "md5sum": "*", "type": "*"}).accept_service("/server", FLIP)
     assert fields(answer)["md5sum"] == FLIP.md5sum
 
 
 @pytest.mark.parametrize("md5sum", [OTHER_MD5, FLIP.md5sum.upper()])
 @pytest.mark.parametrize("probe", ["0", "1"])
-def test_V2_V4_a_caller_that_means_another_definition_is_refused_probe_or_not(md5sum, probe):
+def test_a_caller_with_another_md5sum_is_refused_probe_or_not(md5sum, probe):
     server = served({**CALLER, "md5sum": md5sum, "probe": probe})
     with pytest.raises(HandshakeError, match=f"wants service /flip .*{md5sum}"):
         server.accept_service("/server", FLIP)

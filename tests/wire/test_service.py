@@ -19,7 +19,7 @@ def test_success_and_failure_are_one_byte():
     assert (SUCCESS, FAILURE) == (b"\x01", b"\x00")
 
 
-def test_trap_1_a_failure_has_the_length_of_its_text_before_it():
+def test_a_failure_has_the_length_of_its_text_before_it():
     assert encode_failure("no way") == b"\x00" + b"\x06\x00\x00\x00" + b"no way"
 
 
@@ -42,6 +42,6 @@ def test_a_length_within_the_limit(length):
 
 
 @pytest.mark.parametrize("length", [1025, 900_000_000, 0xFFFF_FFFF])
-def test_V10_a_length_beyond_the_limit_is_refused(length):
+def test_a_length_beyond_the_limit_is_refused(length):
     with pytest.raises(ServiceFrameError, match=f"a frame of {length} bytes, more than 1024"):
         frame_length(struct.pack("<I", length), 1024)

@@ -1,4 +1,4 @@
-"""XML-RPC documents; the rows are those of the protocol table (X1 to X21)."""
+"""XML-RPC documents: what is understood, what is refused, and what is sent."""
 
 from __future__ import annotations
 
@@ -64,12 +64,12 @@ def there_and_back(value: Any) -> Any:
         call_with("") + b"x",
     ],
 )
-def test_X1_malformed_documents_are_refused(document: bytes) -> None:
+def test_malformed_documents_are_refused(document: bytes) -> None:
     with pytest.raises(XmlRpcError):
         decode_call(document)
 
 
-def test_X1_an_empty_answer_is_told_apart() -> None:
+def test_an_empty_answer_has_an_error_of_its_own() -> None:
     with pytest.raises(XmlRpcError, match="empty"):
         decode_response(b"")
 
@@ -90,17 +90,17 @@ def test_call_without_params() -> None:
     ],
 )
 @pytest.mark.parametrize("decode", [decode_call, decode_response])
-def test_X2_document_types_are_refused(doctype: str, decode: Any) -> None:
+def test_document_types_are_refused(doctype: str, decode: Any) -> None:
     with pytest.raises(XmlRpcError, match="document type"):
         decode(f"<?xml version='1.0'?>{doctype}<methodCall/>".encode())
 
 
-def test_X2_undeclared_entities_are_refused() -> None:
+def test_undeclared_entities_are_refused() -> None:
     with pytest.raises(XmlRpcError):
         value_of("&nope;")
 
 
-def test_X7_untyped_values_are_strings() -> None:
+def test_untyped_values_are_strings() -> None:
     assert value_of(" some\ttext ") == " some\ttext "
     assert value_of("") == ""
     assert value_of("<![CDATA[<a&b>]]>c") == "<a&b>c"
@@ -108,20 +108,20 @@ def test_X7_untyped_values_are_strings() -> None:
     assert value_of("\n <string>x</string> \n") == "x"
 
 
-def test_X8_other_encodings() -> None:
+def test_text_is_decoded_by_the_declared_encoding() -> None:
     head = "<?xml version='1.0' encoding='iso-8859-1'?>"
     document = f"{head}{call_with('<params><param><value>ü</value></param></params>').decode()}"
     assert decode_call(document.encode("latin-1")) == ("m", ("ü",))
 
 
 @pytest.mark.parametrize("encoding", ["UTF-8", "utf-16", "iso-8859-1", "us-ascii"])
-def test_X8_the_encodings_of_xml(encoding: str) -> None:
+def test_encodings_that_are_accepted(encoding: str) -> None:
     document = f"<?xml version='1.0' encoding='{encoding}'?>{call_with('').decode()}"
     assert decode_call(document.encode(encoding)) == ("m", ())
 
 
 @pytest.mark.parametrize("encoding", ["unicode_escape", "punycode", "cp1252", "no-such-encoding"])
-def test_X8_an_encoding_is_not_looked_up_in_python(encoding: str) -> None:
+def test_encodings_of_python_are_refused(encoding: str) -> None:
     known = dict(encodings._cache)  # type: ignore[attr-defined]
     document = f"<?xml version='1.0' encoding='{encoding}'?>{call_with('').decode()}"
     with pytest.raises(XmlRpcError, match="not an encoding"):
@@ -131,12 +131,12 @@ def test_X8_an_encoding_is_not_looked_up_in_python(encoding: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["&#0;", "&#1;", "&#xFFFE;", "&#xD800;", "\x01"])
-def test_X9_characters_that_xml_has_not(text: str) -> None:
+def test_characters_that_xml_excludes_are_refused(text: str) -> None:
     with pytest.raises(XmlRpcError):
         value_of(text)
 
 
-def test_X9_bytes_that_are_not_utf8() -> None:
+def test_bytes_that_are_not_utf8_are_refused() -> None:
     with pytest.raises(XmlRpcError):
         decode_call(
             call_with("<params><param><value>~</value></param></params>").replace(b"~", b"\xff")
@@ -144,14 +144,14 @@ def test_X9_bytes_that_are_not_utf8() -> None:
 
 
 @pytest.mark.parametrize("char", ["\x00", "\x01", "\x0b", "\x1f", "\ud800", "\ufffe", "\uffff"])
-def test_X9_strings_that_xml_cannot_carry_are_refused_when_sent(char: str) -> None:
+def test_strings_that_xml_cannot_carry_are_refused_when_sent(char: str) -> None:
     with pytest.raises(ValueError, match=r"^params\[1\]\['k'\]: XML cannot carry"):
         encode_call("m", ("/c", {"k": f"a{char}b"}))
     with pytest.raises(ValueError, match="XML cannot carry"):
         encode_call("m", ({f"a{char}b": 1},))
 
 
-def test_X10_carriage_returns_are_kept() -> None:
+def test_carriage_returns_are_kept() -> None:
     assert there_and_back("a\r\nb\rc") == "a\r\nb\rc"
     assert value_of("a\r\nb") == "a\nb"  # a rule of XML
 
@@ -165,18 +165,18 @@ def test_X10_carriage_returns_are_kept() -> None:
         f"<int>{'9' * 5000}</int>",
     ],
 )
-def test_X11_ints_of_more_than_32_bits(inner: str) -> None:
+def test_ints_beyond_32_bits_are_refused(inner: str) -> None:
     with pytest.raises(XmlRpcError, match=r"^params\[0\]: "):
         value_of(inner)
 
 
 @pytest.mark.parametrize("number", [1 << 31, -(1 << 31) - 1, 10**100])
-def test_X11_ints_of_more_than_32_bits_are_refused_when_sent(number: int) -> None:
+def test_ints_beyond_32_bits_are_refused_when_sent(number: int) -> None:
     with pytest.raises(OverflowError, match=r"params\[1\]\[0\]: .* 32 bits"):
         encode_call("m", ("/c", [number]))
 
 
-def test_X12_X13_nil_is_none_for_the_caller_to_judge() -> None:
+def test_nil_is_decoded_as_none() -> None:
     assert value_of("<nil/>") is None
     assert value_of("<array><data><value><nil/></value></data></array>") == [None]
 
@@ -190,28 +190,28 @@ def test_none_is_refused_when_sent() -> None:
     ("inner", "expected"),
     [("<int>+007</int>", 7), ("<i4> -3\n</i4>", -3), ("<int>-2147483648</int>", -(1 << 31))],
 )
-def test_X14_ints(inner: str, expected: int) -> None:
+def test_ints_with_signs_zeros_and_spaces_are_decoded(inner: str, expected: int) -> None:
     assert value_of(inner) == expected
 
 
 @pytest.mark.parametrize("text", ["", "abc", "1.0", "1_000", "0x10", "٣", "1 2"])
-def test_X14_not_ints(text: str) -> None:
+def test_malformed_ints_are_refused(text: str) -> None:
     with pytest.raises(XmlRpcError, match="not an int"):
         value_of(f"<int>{text}</int>")
 
 
 @pytest.mark.parametrize("text", ["2", "true", "", "01"])
-def test_X15_not_booleans(text: str) -> None:
+def test_malformed_booleans_are_refused(text: str) -> None:
     with pytest.raises(XmlRpcError, match="not a boolean"):
         value_of(f"<boolean>{text}</boolean>")
 
 
-def test_X15_booleans() -> None:
+def test_booleans_are_decoded() -> None:
     assert value_of("<boolean>1</boolean>") is True
     assert value_of("<boolean>0</boolean>") is False
 
 
-def test_X16_doubles_that_are_no_numbers() -> None:
+def test_nan_and_infinities_survive() -> None:
     assert math.isnan(there_and_back(math.nan))
     assert there_and_back([math.inf, -math.inf]) == [math.inf, -math.inf]
     assert value_of("<double>1e400</double>") == math.inf
@@ -220,17 +220,17 @@ def test_X16_doubles_that_are_no_numbers() -> None:
 
 
 @pytest.mark.parametrize("text", ["", "x", "1_0"])
-def test_X16_not_doubles(text: str) -> None:
+def test_malformed_doubles_are_refused(text: str) -> None:
     with pytest.raises(XmlRpcError, match="not a double"):
         value_of(f"<double>{text}</double>")
 
 
 @pytest.mark.parametrize("number", [0.1, 3.141592653589793, 5e-324, 1.7976931348623157e308, -0.0])
-def test_X17_doubles_keep_every_bit(number: float) -> None:
+def test_doubles_keep_every_bit(number: float) -> None:
     assert there_and_back(number).hex() == number.hex()
 
 
-def test_X18_base64_and_datetime() -> None:
+def test_base64_and_datetime_survive() -> None:
     moment = datetime(1998, 7, 17, 14, 8, 55)
     assert there_and_back([b"\x00\xff", moment]) == [b"\x00\xff", moment]
     assert value_of("<base64>\n AA\n==\n</base64>") == b"\x00"
@@ -239,18 +239,18 @@ def test_X18_base64_and_datetime() -> None:
 
 
 @pytest.mark.parametrize("text", ["nope", "", "19981317T14:08:55", "00000717T14:08:55"])
-def test_X18_datetime_is_validated(text: str) -> None:
+def test_datetime_is_validated(text: str) -> None:
     with pytest.raises(XmlRpcError, match="not a dateTime"):
         value_of(f"<dateTime.iso8601>{text}</dateTime.iso8601>")
 
 
 @pytest.mark.parametrize("text", ["a", "A===", "ü", "AA=A"])
-def test_X18_base64_is_validated(text: str) -> None:
+def test_base64_is_validated(text: str) -> None:
     with pytest.raises(XmlRpcError, match="not base64"):
         value_of(f"<base64>{text}</base64>")
 
 
-def test_X19_X20_keys_of_structs() -> None:
+def test_struct_keys_are_kept_and_the_last_duplicate_wins() -> None:
     assert there_and_back({"x/y": 1, "": 2}) == {"x/y": 1, "": 2}
     members = "".join(
         f"<member><name>k</name><value><int>{n}</int></value></member>" for n in (1, 2)
@@ -281,7 +281,7 @@ def test_X19_X20_keys_of_structs() -> None:
         "</value></param><param><value><array><data><value>",
     ],
 )
-def test_X21_wrong_structure(inner: str) -> None:
+def test_misplaced_elements_are_refused(inner: str) -> None:
     with pytest.raises(XmlRpcError):
         value_of(inner)
 
@@ -290,7 +290,7 @@ def nested(depth: int) -> str:
     return "<array><data><value>" * depth + "</value></data></array>" * depth
 
 
-def test_X21_depth_is_bounded() -> None:
+def test_nesting_is_bounded() -> None:
     value_of(nested(MAX_DEPTH))
     with pytest.raises(XmlRpcError, match="inside one another"):
         value_of(nested(MAX_DEPTH + 1))
@@ -300,7 +300,7 @@ def test_X21_depth_is_bounded() -> None:
         decode_call(encode_call("m", [[[1]]]), max_depth=1)
 
 
-def test_X21_depth_is_bounded_when_sent() -> None:
+def test_nesting_is_bounded_when_sent() -> None:
     endless: list[Any] = []
     endless.append(endless)
     with pytest.raises(ValueError, match="inside one another"):

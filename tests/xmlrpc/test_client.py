@@ -32,7 +32,7 @@ async def test_calls_and_faults() -> None:
 
 
 @pytest.mark.parametrize(("path", "expected"), [("", "/RPC2"), ("/", "/"), ("/x/y", "/x/y")])
-async def test_H3_H8_what_is_sent(
+async def test_requests_have_a_content_length_and_are_never_chunked(
     path: str, expected: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("http_proxy", "http://127.0.0.1:9")
@@ -105,10 +105,10 @@ async def test_no_answer_in_time() -> None:
 @pytest.mark.parametrize(
     ("answer", "text"),
     [
-        (http(b""), "empty"),  # X1: roscpp
+        (http(b""), "empty"),  # roscpp, to a malformed request
         (http(b"no xml"), "not XML"),
         (http(b"<methodCall/>"), "expected a methodResponse"),
-        (http(b"<!DOCTYPE x><methodResponse/>"), "document type"),  # X2
+        (http(b"<!DOCTYPE x><methodResponse/>"), "document type"),
         (http(b"no", status="404 Not Found"), "status 404"),
         (http(b"", "Location: http://127.0.0.1:1/", status="302 Found"), "status 302"),
         (http(b"", status="500 Oops"), "status 500"),
@@ -145,7 +145,7 @@ async def test_connection_lost(answer: bytes) -> None:
 # ------------------------------------------------------------------------------- kept connections
 
 
-async def test_H2_connection_closed_meanwhile_is_replaced_once() -> None:
+async def test_a_connection_closed_while_idle_is_replaced_once() -> None:
     """The first request of a connection is answered; at the second it is closed."""
     connections = 0
 
@@ -166,7 +166,7 @@ async def test_H2_connection_closed_meanwhile_is_replaced_once() -> None:
         assert connections == before + 1
 
 
-async def test_H2_a_second_loss_is_an_error() -> None:
+async def test_a_second_loss_is_an_error() -> None:
     connections = 0
 
     async def script(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:

@@ -1,4 +1,4 @@
-"""The HTTP layer of masters and nodes (H1 to H11), and how methods are called."""
+"""The HTTP server of masters and nodes, and how it calls their methods."""
 
 from __future__ import annotations
 
@@ -110,14 +110,14 @@ async def still_serves(server: XmlRpcServer, source: str = "127.0.0.1") -> bool:
 # ------------------------------------------------------------------------------- HTTP
 
 
-async def test_H1_http_1_0_is_answered_and_closed() -> None:
+async def test_http_1_0_is_answered_and_closed() -> None:
     async with serving() as server, connected(server) as peer:
         await peer.post(PING, version="1.0")
         assert await peer.value() == [1, "", "/c"]
         assert await peer.closed()
 
 
-async def test_H2_connections_are_kept_and_requests_may_be_pipelined() -> None:
+async def test_connections_are_kept_and_requests_may_be_pipelined() -> None:
     async with serving() as server, connected(server) as peer:
         for _ in range(3):
             await peer.post(PING)
@@ -128,14 +128,14 @@ async def test_H2_connections_are_kept_and_requests_may_be_pipelined() -> None:
             assert await peer.value() == [1, "", "/c"]
 
 
-async def test_H3_chunked_bodies_are_accepted() -> None:
+async def test_chunked_bodies_are_accepted() -> None:
     async with serving() as server, connected(server) as peer:
         chunks = b"".join(b"1\r\n" + PING[i : i + 1] + b"\r\n" for i in range(len(PING)))
         await peer.post(chunks + b"0\r\n\r\n", "Transfer-Encoding: chunked")
         assert await peer.value() == [1, "", "/c"]
 
 
-async def test_H4_expect_100_continue() -> None:
+async def test_expect_100_continue_is_answered() -> None:
     async with serving() as server, connected(server) as peer:
         await peer.post(b"", "Expect: 100-continue", f"Content-Length: {len(PING)}")
         status, _, _ = await peer.answer()
@@ -148,7 +148,7 @@ async def test_H4_expect_100_continue() -> None:
     ("header", "expected"),
     [("X-No: length", 411), ("Content-Length: ten", 400), ("Content-Length: -5", 400)],
 )
-async def test_H5_content_length_that_is_none(header: str, expected: int) -> None:
+async def test_a_missing_or_malformed_content_length_is_refused(header: str, expected: int) -> None:
     async with serving() as server, connected(server) as peer:
         await peer.send(f"POST / HTTP/1.1\r\nHost: x\r\n{header}\r\n\r\n".encode())
         status, _, _ = await peer.answer()
@@ -157,7 +157,7 @@ async def test_H5_content_length_that_is_none(header: str, expected: int) -> Non
         assert await still_serves(server)
 
 
-async def test_H6_body_that_is_too_large() -> None:
+async def test_a_body_beyond_the_limit_is_refused() -> None:
     async with serving(xmlrpc_bytes=1000) as server:
         async with connected(server) as peer:
             await peer.post(b"", f"Content-Length: {10**12}")
@@ -170,7 +170,7 @@ async def test_H6_body_that_is_too_large() -> None:
         assert await still_serves(server)
 
 
-async def test_H6_body_that_never_comes() -> None:
+async def test_a_body_that_never_arrives_times_out() -> None:
     async with serving(xmlrpc_timeout=0.2) as server, connected(server) as peer:
         await peer.post(PING[:10], f"Content-Length: {len(PING)}")
         assert await still_serves(server)  # meanwhile
@@ -179,7 +179,7 @@ async def test_H6_body_that_never_comes() -> None:
         assert await peer.closed()
 
 
-async def test_H6_head_that_never_ends() -> None:
+async def test_a_head_that_never_ends_times_out() -> None:
     async with serving(xmlrpc_timeout=0.2) as server, connected(server) as peer:
         await peer.send(b"POST / HTTP/1.1\r\nHost:")
         assert await still_serves(server)
@@ -188,7 +188,7 @@ async def test_H6_head_that_never_ends() -> None:
         assert await peer.closed()
 
 
-async def test_H6_idle_connections_are_kept_longer_than_requests_may_take() -> None:
+async def test_idle_connections_are_kept_longer_than_requests_may_take() -> None:
     async with serving(xmlrpc_timeout=0.1) as server, connected(server) as peer:
         await peer.post(PING)
         await peer.value()
@@ -214,7 +214,7 @@ async def test_answer_that_is_never_read() -> None:
 
 
 @pytest.mark.parametrize("method", ["GET", "PUT", "HEAD", "DELETE"])
-async def test_H7_other_http_methods(method: str) -> None:
+async def test_only_post_is_allowed(method: str) -> None:
     async with serving() as server, connected(server) as peer:
         await peer.send(f"{method} / HTTP/1.1\r\nHost: x\r\n\r\n".encode())
         status, _, _ = await asyncio.wait_for(peer.answer() if method != "HEAD" else head(peer), 10)
@@ -232,7 +232,9 @@ async def head(peer: Peer) -> tuple[int, dict[str, str], bytes]:
     ("path", "expected"),
     [("/", 200), ("/RPC2", 200), ("/RPC2?x=1", 200), ("/other", 404), ("/RPC2/", 404)],
 )
-async def test_H8_paths(path: str, expected: int) -> None:
+async def test_the_root_and_rpc2_are_served_and_other_paths_are_404(
+    path: str, expected: int
+) -> None:
     async with serving() as server, connected(server) as peer:
         await peer.post(PING, path=path)
         status, _, _ = await peer.answer()
@@ -242,13 +244,13 @@ async def test_H8_paths(path: str, expected: int) -> None:
 
 
 @pytest.mark.parametrize("header", ["Content-Type: application/json", "X: y"])
-async def test_H9_content_type_does_not_matter(header: str) -> None:
+async def test_content_type_does_not_matter(header: str) -> None:
     async with serving() as server, connected(server) as peer:
         await peer.post(PING, header)
         assert await peer.value() == [1, "", "/c"]
 
 
-async def test_H10_gzip() -> None:
+async def test_a_gzipped_body_is_accepted() -> None:
     async with serving() as server, connected(server) as peer:
         await peer.post(gzip.compress(PING), "Content-Encoding: gzip")
         assert await peer.value() == [1, "", "/c"]
@@ -264,7 +266,9 @@ async def test_H10_gzip() -> None:
     ],
     ids=["too large inside", "cut short", "no gzip", "another coding"],
 )
-async def test_H10_gzip_that_is_refused(body: bytes, coding: str, expected: int) -> None:
+async def test_bad_gzip_and_other_codings_are_refused(
+    body: bytes, coding: str, expected: int
+) -> None:
     async with serving(xmlrpc_bytes=100_000) as server, connected(server) as peer:
         await peer.post(body, f"Content-Encoding: {coding}")
         status, _, _ = await peer.answer()
@@ -282,7 +286,9 @@ async def test_H10_gzip_that_is_refused(body: bytes, coding: str, expected: int)
     ],
     ids=["tls", "text", "100 kB header", "zeros"],
 )
-async def test_H11_garbage(garbage: bytes, caplog: pytest.LogCaptureFixture) -> None:
+async def test_garbage_is_answered_or_closed_and_does_no_harm(
+    garbage: bytes, caplog: pytest.LogCaptureFixture
+) -> None:
     async with serving(xmlrpc_timeout=0.3) as server, connected(server) as peer:
         with contextlib.suppress(ConnectionError):
             await peer.send(garbage)
@@ -304,7 +310,7 @@ async def test_many_half_sent_requests_hold_nobody() -> None:
 # ------------------------------------------------------------------------------- calls
 
 
-async def test_X1_malformed_xml_is_a_fault_with_status_200() -> None:
+async def test_malformed_xml_is_a_fault_with_status_200() -> None:
     async with serving() as server, connected(server) as peer:
         for body in (b"", b"<methodCall>", b"<!DOCTYPE x><methodCall/>"):
             await peer.post(body)
@@ -314,13 +320,13 @@ async def test_X1_malformed_xml_is_a_fault_with_status_200() -> None:
 
 
 @pytest.mark.parametrize("name", ["nope", "_methods", "__init__", "ping.__call__", "", "start"])
-async def test_X3_unknown_methods(name: str) -> None:
+async def test_unknown_methods_are_faults(name: str) -> None:
     async with serving() as server:
         with pytest.raises(XmlRpcFault, match="is not supported"):
             await call(server, name, "/c")
 
 
-async def test_X4_multicall() -> None:
+async def test_multicall_answers_each_call_by_itself() -> None:
     async def slow(caller_id: str) -> list[Any]:
         await asyncio.sleep(0)
         return [1, "slow", caller_id]
@@ -353,13 +359,13 @@ async def test_X4_multicall() -> None:
 
 
 @pytest.mark.parametrize("params", [(), (1,), ([], [])])
-async def test_X4_multicall_of_nothing(params: tuple[Any, ...]) -> None:
+async def test_multicall_takes_one_array(params: tuple[Any, ...]) -> None:
     async with serving() as server:
         with pytest.raises(XmlRpcFault, match="takes one array"):
             await call(server, "system.multicall", *params)
 
 
-async def test_X6_wrong_number_of_parameters() -> None:
+async def test_a_wrong_number_of_parameters_is_refused() -> None:
     def several(caller_id: str, a: int, b: int = 2, /, *, c: int = 3) -> list[Any]:
         raise TypeError("from inside")
 
