@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
+from threading import get_ident
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from weakref import WeakSet
 
@@ -134,9 +135,9 @@ class Publisher(Role, Generic[M]):
         if not self._is_open:
             raise self._closed_error()
         publication = self._publication
-        turn = publication.turn
-        if not turn.collects:
-            turn.begin()
+        coalescer = publication.coalescer
+        if coalescer.collecting_in != get_ident():
+            coalescer.begin()
         frame = self._encode(msg, fields)
         if self._blocks and publication.is_congested:
             self._require_room()
@@ -152,9 +153,9 @@ class Publisher(Role, Generic[M]):
         self._check_open()
         if self._blocks:
             self._require_room()
-        turn = self._publication.turn
-        if not turn.collects:
-            turn.begin()
+        coalescer = self._publication.coalescer
+        if coalescer.collecting_in != get_ident():
+            coalescer.begin()
         frame = frame_parts(buffer, join=JOIN)
         if self._latches:
             self.latched = frame
@@ -179,17 +180,17 @@ class Publisher(Role, Generic[M]):
         if not self._is_open:
             raise self._closed_error()
         publication = self._publication
-        turn = publication.turn
+        coalescer = publication.coalescer
         # Before it is published, and nothing after it: who is cancelled may send it again.
-        if turn.is_long or not publication.has_subscribers:
+        if coalescer.should_yield or not publication.has_subscribers:
             await asyncio.sleep(0)
             self._check_open()
         if publication.is_congested and not publication.has_room(self):
             await self._wait_until(
                 lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
             )
-        if not turn.collects:
-            turn.begin()
+        if coalescer.collecting_in != get_ident():
+            coalescer.begin()
         frame = self._encode(msg, fields)
         if self._latches:
             self.latched = frame

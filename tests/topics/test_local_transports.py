@@ -15,6 +15,7 @@ import pytest
 import aioros1
 from aioros1.msg.std_msgs import Int32, String
 from aioros1.net import local_transports as local
+from aioros1.net.loop_state import loop_state
 from aioros1.xmlrpc.client import XmlRpcClient
 
 needs_abstract_sockets = pytest.mark.skipif(
@@ -523,7 +524,7 @@ async def test_another_host_is_answered_with_tcp(make_node, ask):
 @needs_abstract_sockets
 async def test_a_node_that_is_closed_leaves_no_socket(make_node, ask):
     node = await make_node("talker", local_transports=("intraprocess", "unix"))
-    place = local._place()
+    place = loop_state()
     assert node._acceptor._listener in place.listeners.values()
     async with node.advertise("chatter", String):
         _, _, [_, name] = await ask(
