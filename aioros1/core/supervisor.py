@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-import threading
 import warnings
 from collections.abc import Awaitable, Callable
 from typing import Any, Literal, Protocol
 
 from aioros1.errors import ClosedError
+from aioros1.net.loop_state import LoopState, loop_state
 
 __all__ = ["Life", "State", "Supervisor"]
 
@@ -47,9 +47,7 @@ class Supervisor:
         self._report = report
         self.state: State = "new"
         """Where the node is in its life; the steps of that set it."""
-        self.loop: asyncio.AbstractEventLoop | None = None
-        """The event loop that the node lives in; None before it is started."""
-        self._thread = ""
+        self._loop_state: LoopState | None = None  # of the loop that the node lives in
         self._group: asyncio.TaskGroup | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
@@ -58,9 +56,8 @@ class Supervisor:
 
     async def start(self) -> None:
         """Return when the node has begun; raise what it raises."""
-        self.loop = asyncio.get_running_loop()
-        self._thread = threading.current_thread().name
-        begun = self.loop.create_future()
+        self._loop_state = loop_state()
+        begun = self._loop_state.loop.create_future()
         self._task = asyncio.create_task(self._run(begun), name=f"{self._name} supervisor")
         try:
             await asyncio.shield(begun)
@@ -107,17 +104,8 @@ class Supervisor:
 
     def check_loop(self) -> None:
         """Raise :class:`RuntimeError` in another thread or event loop than the node's."""
-        # It gives None where get_running_loop() raises.
-        running = asyncio._get_running_loop()
-        if running is self.loop or self.loop is None:
-            return
-        where = "without an event loop" if running is None else "in another event loop"
-        raise RuntimeError(
-            f"{self._name} was used {where}, in thread {threading.current_thread().name!r}; it "
-            f"belongs to the event loop of thread {self._thread!r}: hand the call over with "
-            "loop.call_soon_threadsafe() or asyncio.run_coroutine_threadsafe(), or use "
-            "NodeThread.call() and NodeThread.run()"
-        )
+        if self._loop_state is not None:
+            self._loop_state.check_thread(self._name)
 
     async def _guarded(
         self, function: Callable[..., Awaitable[Any]], args: tuple[Any, ...], name: str

@@ -1,86 +1,116 @@
-"""Turns of an event loop, as far as sending needs to know of them.
+"""Whether a message is sent at once, or together with those that follow it.
 
-A message that comes alone is written at once. What follows on its heels belongs to a flood,
-be it of one topic or of a hundred, and is collected until the turn of the loop is over. The
-end of a turn is a callback, and so one more round of the loop; a message that comes alone
-does without it, which saves 9 of the 35 µs that a short one takes to another process and
-back.
+A message that comes alone is written at once. One that follows another within
+:data:`BURST_GAP` belongs to a burst, be it of one topic or of a hundred: it is collected with
+those behind it until the end of the event loop's iteration, and they are written as one
+block. The end of an iteration is a callback, and so costs one more iteration; a message that
+comes alone does without it, which saves 9 of the 35 µs that a short one takes to another
+process and back.
 """
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from threading import get_ident
 from time import perf_counter
-from weakref import WeakKeyDictionary
 
-__all__ = ["Turn", "this_loops_turn"]
+__all__ = ["Coalescer"]
 
-HEELS = 5e-6
-"""Seconds between two messages of a flood at the most. A flood has one every microsecond;
-who waits for an answer in between needs ten at least."""
+BURST_GAP = 5e-6
+"""The longest time between two messages of a burst, in seconds. A burst has a message every
+microsecond; who waits for an answer in between needs ten at least."""
 
-AT_ONCE = 16
-"""Messages that are written one by one until others get their turn."""
+MAX_ALONE = 16
+"""Messages that are written one by one before other tasks should run."""
 
 
-class Turn:
-    """The turn that a loop is in. ``collects`` and ``is_long`` are looked at for every
-    message, and so are plain attributes."""
+class Coalescer:
+    """Decides for all publishers of one event loop; part of :class:`.LoopState`.
 
-    __slots__ = ("_at_end", "_written", "_written_at", "collects", "is_long")
+    ``collecting_in`` and ``should_yield`` are plain attributes, because they are looked at
+    for each message. ``check_thread(what)`` raises if it is called outside the loop's thread.
+    """
 
-    def __init__(self) -> None:
-        self.collects = False
-        """Whether messages are collected until the end of the turn."""
-        self.is_long = False
-        """Whether much was sent in this turn: it is time to let others run."""
-        self._written = 0
-        self._written_at = 0.0
-        self._at_end: list[Callable[[], object]] = []
+    __slots__ = (
+        "_alone",
+        "_check_thread",
+        "_functions",
+        "_loop",
+        "_sent_at",
+        "collecting_in",
+        "should_yield",
+    )
+
+    def __init__(
+        self, loop: asyncio.AbstractEventLoop, check_thread: Callable[[str], None]
+    ) -> None:
+        self._loop = loop
+        self._check_thread = check_thread
+        self.collecting_in = 0
+        """While messages are collected until the end of the iteration: the loop's thread, as
+        :func:`threading.get_ident` names it. Otherwise 0.
+
+        So one comparison says both whether :meth:`begin` has to be called, and whether this
+        is the right thread.
+        """
+        self.should_yield = False
+        """Whether so much was sent in this iteration that other tasks should run."""
+        self._alone = 0  # messages sent alone in this iteration
+        self._sent_at = 0.0
+        self._functions: list[Callable[[], object]] = []
 
     def begin(self) -> None:
-        """Before a message is encoded, unless :attr:`collects`: is it one of a flood?"""
-        if perf_counter() - self._written_at < HEELS:
-            self.note()
+        """A message is about to be encoded: find out whether it belongs to a burst.
 
-    def wrote(self) -> None:
+        To be called unless :attr:`collecting_in` is this thread. Raises
+        :class:`RuntimeError` outside the loop's thread, and then has changed nothing.
+        """
+        self._check_thread("publish()")
+        if self.collecting_in:
+            self.collecting_in = get_ident()  # another thread goes on running the loop
+        elif perf_counter() - self._sent_at < BURST_GAP:
+            self.collect()
+
+    def sent_alone(self) -> None:
         """A message was written by itself."""
-        self._written += 1
-        if self._written >= AT_ONCE:
-            self.lengthen()
-        self._written_at = perf_counter()
+        self._alone += 1
+        if self._alone >= MAX_ALONE:
+            self.sent_much()
+        self._sent_at = perf_counter()
 
-    def lengthen(self) -> None:
-        """A whole block or a large message went out."""
-        self.note()
-        self.is_long = True
+    def sent_much(self) -> None:
+        """A whole block or a large message was written."""
+        self.collect()
+        self.should_yield = True
 
-    def note(self) -> None:
-        """Have the end of the turn noticed."""
-        if not self.collects:
-            self.collects = True
-            asyncio.get_running_loop().call_soon(self._end)
+    def collect(self) -> None:
+        """Collect messages from now on, until the end of the loop's iteration.
 
-    def at_end(self, function: Callable[[], object]) -> None:
-        """Call ``function`` when the turn is over, which somebody has noted."""
-        self._at_end.append(function)
+        Raises :class:`RuntimeError` when the loop is closed.
+        """
+        if not self.collecting_in:
+            self._loop.call_soon(self._end)  # first: if this fails, nothing is collected
+            self.collecting_in = get_ident()
+
+    def call_at_end(self, function: Callable[[], object]) -> None:
+        """Call ``function`` at the end of the iteration; only while messages are collected.
+
+        An exception that it raises goes to the loop's exception handler, and the other
+        functions are called nevertheless.
+        """
+        self._functions.append(function)
 
     def _end(self) -> None:
-        self._written = 0
-        self.collects = self.is_long = False
-        functions, self._at_end = self._at_end, []
-        for function in functions:
-            function()
-
-
-_turns: WeakKeyDictionary[asyncio.AbstractEventLoop, Turn] = WeakKeyDictionary()
-
-
-def this_loops_turn() -> Turn:
-    """The turns of the running loop; one object for all that is sent in it."""
-    loop = asyncio.get_running_loop()
-    turn = _turns.get(loop)
-    if turn is None:
-        turn = _turns[loop] = Turn()
-    return turn
+        self._alone = 0
+        self.collecting_in = 0
+        self.should_yield = False
+        functions, self._functions = self._functions, []
+        rest = iter(functions)
+        try:
+            for function in rest:
+                function()
+        except BaseException:
+            for function in rest:
+                self._loop.call_soon(function)
+            raise  # to the loop, which reports it

@@ -23,8 +23,8 @@ import socket
 import sys
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
-from weakref import WeakKeyDictionary
 
+from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.net.tcpros import Listener, Stream
 from aioros1.options import LocalTransport
 
@@ -34,25 +34,6 @@ INTRAPROCESS = "INTRAPROCESS"
 UNIXROS = "UNIXROS"
 
 _SOCKET_NAME = re.compile(r"aioros1\.[0-9a-f]{32}")
-
-
-class _Place:
-    """An event loop, as seen from the nodes in it."""
-
-    def __init__(self) -> None:
-        self.key = os.urandom(16).hex()
-        self.listeners: dict[str, Listener] = {}
-
-
-_places: WeakKeyDictionary[asyncio.AbstractEventLoop, _Place] = WeakKeyDictionary()
-
-
-def _place() -> _Place:
-    loop = asyncio.get_running_loop()
-    place = _places.get(loop)
-    if place is None:
-        place = _places[loop] = _Place()
-    return place
 
 
 @functools.lru_cache(1)
@@ -87,15 +68,15 @@ class LocalTransports:
         self._in_process = "intraprocess" in wanted
         self._unix = "unix" in wanted
         self._listener = listener
-        self._place: _Place | None = None
+        self._loop_state: LoopState | None = None  # while others may connect within the loop
         self._key = os.urandom(16).hex()
         self._name: str | None = None
 
     async def start(self) -> None:
         """Let others connect. Where a transport cannot be had, others go without."""
         if self._in_process:
-            self._place = _place()
-            self._place.listeners[self._key] = self._listener
+            self._loop_state = loop_state()
+            self._loop_state.listeners[self._key] = self._listener
         if self._unix and _host_key() is not None:
             name = f"aioros1.{self._key}"
             try:
@@ -107,9 +88,9 @@ class LocalTransports:
     def close(self) -> None:
         """Take no more connections; those that are open stay so."""
         self._name = None
-        if self._place is not None:
-            self._place.listeners.pop(self._key, None)
-            self._place = None
+        if self._loop_state is not None:
+            self._loop_state.listeners.pop(self._key, None)
+            self._loop_state = None
 
     # a subscriber's side
 
@@ -117,7 +98,7 @@ class LocalTransports:
         """What to ask a publisher for, besides TCPROS."""
         offers = []
         if self._in_process:
-            offers.append([INTRAPROCESS, _place().key])
+            offers.append([INTRAPROCESS, loop_state().token])
         if self._unix and (host := _host_key()) is not None:
             offers.append([UNIXROS, host])
         return offers
@@ -141,8 +122,8 @@ class LocalTransports:
     def answer(self, protocols: Sequence[Sequence[Any]]) -> list[str] | None:
         """What to answer to a subscriber that asks for these; None for TCPROS."""
         wanted: Mapping[str, Any] = {each[0]: each[1] for each in protocols if len(each) == 2}
-        place = self._place
-        if place is not None and wanted.get(INTRAPROCESS) == place.key:
+        state = self._loop_state
+        if state is not None and wanted.get(INTRAPROCESS) == state.token:
             return [INTRAPROCESS, self._key]
         if self._name is not None and wanted.get(UNIXROS) == _host_key():
             return [UNIXROS, self._name]
@@ -150,7 +131,7 @@ class LocalTransports:
 
 
 def _connect_in_process(key: str) -> Stream:
-    listener = _place().listeners.get(key)
+    listener = loop_state().listeners.get(key)
     if listener is None:
         raise ConnectionRefusedError("no such node in this event loop")
     from aioros1.net.in_process import connect_in_memory

@@ -12,8 +12,9 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
+from aioros1.net.loop_state import loop_state
 from aioros1.net.tcpros import Stream
-from aioros1.wire.frames import READ, FrameError, FrameReceiver
+from aioros1.wire.frames import FrameError, FrameReceiver
 from aioros1.wire.handshake import TopicOffer
 
 __all__ = ["JOIN", "Batch", "Frame", "IncomingLink", "LinkOwner", "OutgoingLink", "Received"]
@@ -23,10 +24,6 @@ Frame = bytes | Sequence[bytes | memoryview]
 
 JOIN = 64 * 1024
 """Bytes joined into one write. More makes the copy dearer than the system call it saves."""
-
-# One for all: it is only in use between get_buffer and buffer_updated, and nothing
-# else runs in between. Made when the first link needs it.
-_scratch: memoryview | None = None
 
 
 class Batch:
@@ -63,9 +60,6 @@ class IncomingLink(asyncio.BufferedProtocol):
         *,
         max_bytes: int,
     ) -> None:
-        global _scratch
-        if _scratch is None:
-            _scratch = memoryview(bytearray(READ))
         self.info = info
         self.offer = offer
         """What the publisher says it publishes."""
@@ -79,7 +73,7 @@ class IncomingLink(asyncio.BufferedProtocol):
         self._clock = clock
         self._stream = stream  # a StreamWriter that is collected closes its transport
         self._transport: asyncio.Transport | None = None
-        self._receiver = FrameReceiver(self, _scratch, max_bytes=max_bytes)
+        self._receiver = FrameReceiver(self, loop_state().receive_buffer, max_bytes=max_bytes)
         self._pauses = 0
         self._seen = 0
 

@@ -21,7 +21,7 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
 from aioros1.errors import Md5MismatchError
-from aioros1.net.coalescing import this_loops_turn
+from aioros1.net.loop_state import loop_state
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
 from aioros1.waiting import Waiters
@@ -69,7 +69,7 @@ class Publication(Shared[Publishing]):
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         # Plain attributes, for they are looked at for every message.
-        self.turn = this_loops_turn()
+        self.coalescer = loop_state().coalescer
         self.is_congested = False
         """Whether messages wait in the queue of any connection."""
         self.has_subscribers = False
@@ -117,19 +117,19 @@ class Publication(Shared[Publishing]):
         """Give ``frame`` to every connection, or to its queue, as ``publisher`` wants."""
         stats = publisher.stats
         stats.messages += 1
-        turn = self.turn
-        if turn.collects and isinstance(frame, bytes):
+        coalescer = self.coalescer
+        if coalescer.collecting_in and isinstance(frame, bytes):
             size = len(frame)
             stats.bytes += size
             for link in self._slow:
                 self._enqueue(link, frame, publisher)
             if not self._pending:
-                turn.at_end(self._flush)
+                coalescer.call_at_end(self._flush)
             self._pending.append(frame)
             self._pending_bytes += size
             if self._pending_bytes >= JOIN:
                 self._flush()
-                turn.lengthen()
+                coalescer.sent_much()
             return
         size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
         stats.bytes += size
@@ -140,9 +140,9 @@ class Publication(Shared[Publishing]):
             self._enqueue(link, frame, publisher)
         for link in self._open:
             link.write(frame, 1)
-        turn.wrote()
+        coalescer.sent_alone()
         if size >= JOIN:
-            turn.lengthen()
+            coalescer.sent_much()
             keep_memory(size)  # for the next one to be encoded
 
     def has_room(self, publisher: Publishing) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
+from threading import get_ident
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from weakref import WeakSet
 
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
 __all__ = ["Publisher"]
 
 M = TypeVar("M", bound=Message)
-
-# Unlike the public function it gives None where no loop runs, as in other threads.
-_get_running_loop = asyncio._get_running_loop
 
 
 class Publisher(Role, Generic[M]):
@@ -62,8 +60,6 @@ class Publisher(Role, Generic[M]):
         self._frame = _frame_encoder(message_class)
         self._is_numbered = message_class._has_header
         self._seq = 0
-        # None once it is closed: one look for both questions that each message asks.
-        self._loop: asyncio.AbstractEventLoop | None = asyncio.get_running_loop()
         self._timers: WeakSet[Timer] = WeakSet()  # those that run keep themselves
 
     @property
@@ -108,12 +104,12 @@ class Publisher(Role, Generic[M]):
         :class:`~aioros1.ClosedError`, and with ``overflow="block"``
         :class:`asyncio.QueueFull` when a subscriber has no room; then nobody got it.
         """
-        if _get_running_loop() is not self._loop:
-            self._check_open()
+        if not self._is_open:
+            raise self._closed_error()
         publication = self._publication
-        turn = publication.turn
-        if not turn.collects:
-            turn.begin()
+        coalescer = publication.coalescer
+        if coalescer.collecting_in != get_ident():
+            coalescer.begin()
         frame = self._encode(msg, fields)
         if self._blocks and publication.is_congested:
             self._require_room()
@@ -126,12 +122,13 @@ class Publisher(Role, Generic[M]):
 
         Raises as :meth:`publish`. ``buffer`` may be changed afterwards.
         """
-        self._check_open()
+        if not self._is_open:
+            raise self._closed_error()
         if self._blocks:
             self._require_room()
-        turn = self._publication.turn
-        if not turn.collects:
-            turn.begin()
+        coalescer = self._publication.coalescer
+        if coalescer.collecting_in != get_ident():
+            coalescer.begin()
         frame = frame_parts(buffer, join=JOIN)
         if self._latches:
             self._latched = frame
@@ -153,20 +150,20 @@ class Publisher(Role, Generic[M]):
         Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds;
         then, and when it is cancelled, the message was not published.
         """
-        if _get_running_loop() is not self._loop:
-            self._check_open()
+        if not self._is_open:
+            raise self._closed_error()
         publication = self._publication
-        turn = publication.turn
+        coalescer = publication.coalescer
         # Before it is published, and nothing after it: who is cancelled may send it again.
-        if turn.is_long or not publication.has_subscribers:
+        if coalescer.should_yield or not publication.has_subscribers:
             await asyncio.sleep(0)
             self._check_open()
         if publication.is_congested and not publication.has_room(self):
             await self._wait_until(
                 lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
             )
-        if not turn.collects:
-            turn.begin()
+        if coalescer.collecting_in != get_ident():
+            coalescer.begin()
         frame = self._encode(msg, fields)
         if self._latches:
             self._latched = frame
@@ -265,12 +262,7 @@ class Publisher(Role, Generic[M]):
                 "waiting; use send() to wait for room"
             )
 
-    async def close(self) -> None:
-        self._loop = None
-        await super().close()
-
     def _abort(self) -> None:
-        self._loop = None
         super()._abort()
         self._publication.changed.wake()
 

@@ -6,12 +6,12 @@ path, ``/RPC2`` when the URI has none; and patience with answers that are no XML
 
 from __future__ import annotations
 
-import asyncio
 import math
 from typing import Any
 
 from aioros1.net.http_client import HttpClient, server_at
 from aioros1.options import Limits, Timeouts
+from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
 from aioros1.wire.xmlrpc import XmlRpcError, decode_response, encode_call
 
@@ -25,7 +25,7 @@ class XmlRpcClient:
         self._timeouts = timeouts if timeouts is not None else Timeouts()
         self._limits = limits if limits is not None else Limits()
         self._http = HttpClient(max_bytes=self._limits.xmlrpc_bytes)
-        self._calls: set[asyncio.Timeout] = set()
+        self._deadlines = Deadlines()  # of the calls in progress
         self._closed = False
 
     async def call(self, uri: str, method: str, *params: Any, timeout: float | None = None) -> Any:
@@ -54,31 +54,24 @@ class XmlRpcClient:
             ) from None
         seconds = self._timeouts.xmlrpc if timeout is None else timeout
         try:
-            async with asyncio.timeout(None if seconds == math.inf else seconds) as limit:
-                self._calls.add(limit)
-                try:
-                    answer = await self._http.post(server, body)
-                finally:
-                    self._calls.discard(limit)
+            async with self._deadlines.limit(None if seconds == math.inf else seconds, "no answer"):
+                answer = await self._http.post(server, body)
             if answer.status != 200:
                 raise XmlRpcError(f"HTTP status {answer.status} {answer.reason}")
             limits = self._limits
             return decode_response(
                 answer.body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
             )
-        except TimeoutError:
-            raise self._out_of_time(f"{method} at {uri}", seconds) from None
+        except TimeoutError as error:
+            if self._closed:
+                raise ConnectionAbortedError(f"{method} at {uri}: the client was closed") from None
+            raise TimeoutError(f"{method} at {uri}: {error}") from None
         except ConnectionResetError as error:
             raise ConnectionResetError(f"{method} at {uri}: {error}") from error
         except ConnectionError as error:
             raise ConnectionError(f"{method} at {uri}: {error}") from error
         except (HttpError, XmlRpcError) as error:
             raise XmlRpcError(f"{method} at {uri}: {error}") from None
-
-    def _out_of_time(self, what: str, seconds: float) -> OSError:
-        if self._closed:
-            return ConnectionAbortedError(f"{what}: the client was closed")
-        return TimeoutError(f"{what}: no answer within {seconds:g} s")
 
     def close_idle(self) -> None:
         """Keep no connection that is there now: all of them may be dead."""
@@ -87,9 +80,6 @@ class XmlRpcClient:
     async def close(self) -> None:
         """Close every connection. Calls in progress fail with :class:`ConnectionError`."""
         self._closed = True
-        for limit in self._calls:
-            if not limit.expired():
-                limit.reschedule(asyncio.get_running_loop().time())
-        while self._calls:  # they end in the next turns of the loop, wherever they are
-            await asyncio.sleep(0)
+        self._deadlines.expire()
+        await self._deadlines.wait_ended()
         await self._http.close()

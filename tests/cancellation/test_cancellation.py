@@ -383,12 +383,12 @@ async def not_twice(world: World, attempt: Attempt) -> None:
 async def a_long_turn(world: World) -> None:
     world.number = str(next(world.numbers))
     await asyncio.sleep(0)
-    world.pub._publication.turn.lengthen()
+    world.pub._publication.coalescer.sent_much()
 
 
 @case("pub.send, at the end of a long turn", before=a_long_turn, after=not_twice)
 async def send_in_turn(world: World) -> None:
-    world.pub._publication.turn.lengthen()
+    world.pub._publication.coalescer.sent_much()
     await world.pub.send(data=world.number)
 
 
