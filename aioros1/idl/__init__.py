@@ -5,6 +5,7 @@ Pure: nothing here does any networking or needs an event loop.
 
 from __future__ import annotations
 
+import aioros1.idl.pickling  # noqa: F401 - attaches itself to Message
 from aioros1.idl.convert import convert, from_dict, to_dict
 from aioros1.idl.digest import full_text, md5_text, md5sum
 from aioros1.idl.message import AnyMessage, Message

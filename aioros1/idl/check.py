@@ -12,15 +12,13 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 from aioros1.errors import SerializationError
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS, Builtin
 from aioros1.idl.spec import Field
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
+from aioros1.idl.structure import Structure
 
 __all__ = ["describe", "normalise"]
 
@@ -55,7 +53,7 @@ def _describe(value: Any) -> str:
     return text if len(text) <= 80 else f"{text[:77]}..."
 
 
-def normalise(cls: type[Message], message: Any) -> Message:
+def normalise(cls: type[Structure], message: Any) -> Structure:
     """A copy of the message with a usual value in each field.
 
     Raises :class:`SerializationError` with the path of the first field whose value is
@@ -69,8 +67,8 @@ def _wrong(path: str, expected: str, value: Any, why: str = "") -> NoReturn:
     raise SerializationError(f"{path}: expected {expected}, got {describe(value)}{reason}")
 
 
-def _message(cls: type[Message], message: Any, path: str) -> Message:
-    result: Message = object.__new__(cls)
+def _message(cls: type[Structure], message: Any, path: str) -> Structure:
+    result: Structure = object.__new__(cls)
     for field in cls._fields:
         place = f"{path}.{field.name}" if path else field.name
         try:
@@ -94,7 +92,7 @@ def _message(cls: type[Message], message: Any, path: str) -> Message:
     return result
 
 
-def _field(cls: type[Message], field: Field, value: Any, path: str) -> Any:
+def _field(cls: type[Structure], field: Field, value: Any, path: str) -> Any:
     builtin = BUILTINS.get(field.base_type)
     if not field.is_array:
         if builtin is not None:

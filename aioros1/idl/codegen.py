@@ -29,15 +29,13 @@ from array import array
 from collections.abc import Callable
 from functools import partial
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.spec import Field
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
 
 __all__ = ["Source", "encoder_source", "make_encoder"]
 
@@ -147,7 +145,7 @@ class _Encoder:
 
     # -- fields -----------------------------------------------------------------------
 
-    def message(self, cls: type[Message], name: str) -> None:
+    def message(self, cls: type[Structure], name: str) -> None:
         """All fields of the message in the local variable ``name``."""
         for field in cls._fields:
             value = attribute(name, field.name)
@@ -203,7 +201,7 @@ class _Encoder:
             )
             self.put(builtin.code, f"{name}._secs", f"{name}._nsecs")
 
-    def array(self, cls: type[Message], field: Field, value: str) -> None:
+    def array(self, cls: type[Structure], field: Field, value: str) -> None:
         name = self.local("v", value)
         builtin = BUILTINS.get(field.base_type)
         if builtin is None:
@@ -268,7 +266,7 @@ class _Encoder:
                 return
         self.payload(octets, f"len({octets})")
 
-    def messages(self, nested: type[Message], field: Field, items: str) -> None:
+    def messages(self, nested: type[Structure], field: Field, items: str) -> None:
         """An array of messages: a loop, the results of which are joined."""
         element = self.out.fresh("e")
         inner = _Encoder(self.out, escape=self.escape)
@@ -305,7 +303,7 @@ class _Encoder:
 
 
 def encoder_source(
-    cls: type[Message], *, frame: bool = False, split: bool = False, escape: bool = False
+    cls: type[Structure], *, frame: bool = False, split: bool = False, escape: bool = False
 ) -> Source:
     """The source of an encoder.
 
@@ -349,7 +347,7 @@ def encoder_source(
 
 
 def make_encoder(
-    cls: type[Message],
+    cls: type[Structure],
     slow: Callable[[Any, Exception], Any] | None = None,
     *,
     frame: bool = False,

@@ -29,16 +29,14 @@ before it is believed, unless the message is alone in ``data``.
 from __future__ import annotations
 
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.codegen import Source
 from aioros1.idl.spec import Field
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
 
 __all__ = ["MAX_EMPTY", "Decoder", "Mode", "write_decoder"]
 
@@ -138,7 +136,7 @@ class Decoder:
 
     # -- fields -----------------------------------------------------------------------
 
-    def message(self, cls: type[Message], owner: str) -> None:
+    def message(self, cls: type[Structure], owner: str) -> None:
         for field in cls._fields:
             if field.is_array:
                 self.array(cls, field, owner)
@@ -189,7 +187,7 @@ class Decoder:
             return f"{octets}.cast({code!r})"
         return f"array({code!r}, {octets})"
 
-    def array(self, cls: type[Message], field: Field, owner: str) -> None:
+    def array(self, cls: type[Structure], field: Field, owner: str) -> None:
         builtin = BUILTINS.get(field.base_type)
         if field.array_len == 0 and (builtin is None or builtin.kind == "string"):
             # Of a fixed size even if its elements are not, so that it can be in a row.
@@ -302,7 +300,7 @@ class Decoder:
             self.out.line(f"empty += {count}")
             self.out.line(f"if empty > {MAX_EMPTY}: raise ValueError")
 
-    def messages(self, nested: type[Message], field: Field, owner: str) -> None:
+    def messages(self, nested: type[Structure], field: Field, owner: str) -> None:
         size = nested._fixed_size
         if size and self.row is not None:
             # Inside a row: the octets of these elements are one value of it.
@@ -326,10 +324,10 @@ class Decoder:
         else:
             self.varying(nested, field, owner)
 
-    def empty(self, nested: type[Message]) -> str:
+    def empty(self, nested: type[Structure]) -> str:
         return f"{self.out.bind('C', nested, nested)}()"
 
-    def rows(self, nested: type[Message], field: Field, owner: str, octets: str) -> None:
+    def rows(self, nested: type[Structure], field: Field, owner: str, octets: str) -> None:
         """Elements of one fixed size: unpacked row by row."""
         items = self.out.fresh("l")
         row = self.out.fresh("r")
@@ -364,7 +362,7 @@ class Decoder:
             self.after += [text.removeprefix(pad) for text in body]
             self.assign_after(owner, field, items)
 
-    def varying(self, nested: type[Message], field: Field, owner: str) -> None:
+    def varying(self, nested: type[Structure], field: Field, owner: str) -> None:
         """Elements of any size: one after the other."""
         count = self.length(field)
         self.check_count(count, nested._min_size)
@@ -384,7 +382,7 @@ class Decoder:
         self.store(owner, field, items)
 
 
-def write_decoder(out: Source, cls: type[Message], mode: Mode, base: str, *, exact: bool) -> str:
+def write_decoder(out: Source, cls: type[Structure], mode: Mode, base: str, *, exact: bool) -> str:
     """Write the body of a decoder to ``out``; gives the name of what it has made.
 
     ``base`` is where the message begins; ``exact`` is for one that is all there is in

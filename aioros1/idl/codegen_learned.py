@@ -25,7 +25,6 @@ and the lengths of a layout add up to the size of the message.
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING
 
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS
@@ -33,9 +32,7 @@ from aioros1.idl.codegen import Source
 from aioros1.idl.codegen_decode import Decoder
 from aioros1.idl.layouts import Differs, Layouts, Loop, Plan, Step, Stretch
 from aioros1.idl.spec import Field
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
+from aioros1.idl.structure import Structure
 
 __all__ = ["write_learned"]
 
@@ -108,7 +105,7 @@ class _LearnedDecoder(Decoder):
         _, payload = self.step("sized")
         self.assign_after(owner, field, f"{payload}.decode()")
 
-    def array(self, cls: type[Message], field: Field, owner: str) -> None:
+    def array(self, cls: type[Structure], field: Field, owner: str) -> None:
         builtin = BUILTINS.get(field.base_type)
         if builtin is None or builtin.kind == "string" or field.array_len is not None:
             super().array(cls, field, owner)
@@ -137,7 +134,7 @@ class _LearnedDecoder(Decoder):
         ]
         self.assign_after(owner, field, items)
 
-    def messages(self, nested: type[Message], field: Field, owner: str) -> None:
+    def messages(self, nested: type[Structure], field: Field, owner: str) -> None:
         size = nested._fixed_size
         if size == 0 or nested._hollow:
             raise _Unsuitable  # what has no octets is counted, which is not done here
@@ -152,7 +149,7 @@ class _LearnedDecoder(Decoder):
             self.take(f"{size * field.array_len}s", octets)
         self.rows(nested, field, owner, octets)
 
-    def varying(self, nested: type[Message], field: Field, owner: str) -> None:
+    def varying(self, nested: type[Structure], field: Field, owner: str) -> None:
         if field.array_len is None:
             self.step("count")
         self.flush()
@@ -188,7 +185,7 @@ def _is_worth_it(plan: Plan) -> bool:
     return reads > 1
 
 
-def write_learned(out: Source, cls: type[Message], base: str) -> bool:
+def write_learned(out: Source, cls: type[Structure], base: str) -> bool:
     """Write the quick way in front of a decoder; whether there is one for this type.
 
     It leaves ``layout`` for the usual way: None where that should call ``learn`` in the end.

@@ -15,13 +15,13 @@ from aioros1.errors import SerializationError
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS, Builtin
 from aioros1.idl.check import describe
-from aioros1.idl.message import Message
 from aioros1.idl.spec import Field
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
 
 __all__ = ["arrays_to_numpy", "convert", "from_dict", "to_dict", "values_equal"]
 
-_M = TypeVar("_M", bound=Message)
+_M = TypeVar("_M", bound=Structure)
 
 _SECONDS: dict[str, type[Time] | type[Duration]] = {"time": Time, "duration": Duration}
 
@@ -150,7 +150,7 @@ def from_dict(cls: type[_M], source: Mapping[str, Any], path: str = "") -> _M:
     return cls(**changes)
 
 
-def _from_plain(cls: type[Message], field: Field, value: Any, path: str) -> Any:
+def _from_plain(cls: type[Structure], field: Field, value: Any, path: str) -> Any:
     if not field.is_array:
         return _item(cls, field, value, path)
     builtin = BUILTINS.get(field.base_type)
@@ -170,7 +170,7 @@ def _from_plain(cls: type[Message], field: Field, value: Any, path: str) -> Any:
 
 
 def _numbers(
-    cls: type[Message], field: Field, items: Sequence[Any], path: str
+    cls: type[Structure], field: Field, items: Sequence[Any], path: str
 ) -> bytes | array[Any]:
     builtin = BUILTINS[field.base_type]
 
@@ -192,7 +192,7 @@ def _numbers(
     return numbers(items)
 
 
-def _item(cls: type[Message], field: Field, value: Any, path: str) -> Any:
+def _item(cls: type[Structure], field: Field, value: Any, path: str) -> Any:
     builtin = BUILTINS.get(field.base_type)
     if builtin is None:
         if isinstance(value, Mapping):

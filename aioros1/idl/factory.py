@@ -10,8 +10,9 @@ from typing import Any, cast
 from aioros1.errors import MessageSpecError
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.digest import full_text
-from aioros1.idl.message import AnyMessage, Message, MessageType
+from aioros1.idl.message import AnyMessage, Message
 from aioros1.idl.spec import Field, MessageSpec
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
 
 __all__ = ["make_message_class", "specs_of"]
@@ -95,7 +96,7 @@ def make_message_class(
         taken = name in slots or name.startswith("_") or hasattr(Message, name)
         if name.isidentifier() and not taken:
             namespace[name] = constant.value
-    made: Any = MessageType(spec.type.partition("/")[2], (Message,), namespace)
+    made: Any = type(spec.type.partition("/")[2], (Message,), namespace)
     return cast("type[AnyMessage]", made)
 
 
@@ -115,7 +116,7 @@ class _FullText:
         return text
 
 
-def specs_of(classes: Iterable[type[Message]]) -> dict[str, MessageSpec]:
+def specs_of(classes: Iterable[type[Structure]]) -> dict[str, MessageSpec]:
     """The specs of the classes and of all that is inside them, by type."""
     found: dict[str, MessageSpec] = {}
     waiting = list(classes)

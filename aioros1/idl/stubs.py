@@ -20,6 +20,7 @@ from aioros1.idl.modules import names_of
 from aioros1.idl.paths import KINDS, Kind, bundle
 from aioros1.idl.spec import Constant, ConstantValue, Field
 from aioros1.idl.store import ACTION_SUFFIXES, MessageStore
+from aioros1.idl.structure import Structure
 
 __all__ = ["HEADER", "Layout", "Stubs", "bundled_store", "bundled_stubs", "write_stubs"]
 
@@ -95,7 +96,7 @@ class Stubs:
         # but takes a directory for code.
         return PurePosixPath(*self._name(package, kind).split("."), "__init__.pyi")
 
-    def _home(self, cls: type[Message]) -> str:
+    def _home(self, cls: type[Structure]) -> str:
         """The module in which checkers find the class of a message."""
         package = cls._type.partition("/")[0]
         if _is_bundled(cls._type, cls._md5sum, "msg"):
@@ -159,7 +160,7 @@ def _is_bundled(type: str, md5sum: str, kind: Kind) -> bool:
 class _Module:
     """One stub while it is written."""
 
-    def __init__(self, home: Callable[[type[Message]], str]) -> None:
+    def __init__(self, home: Callable[[type[Structure]], str]) -> None:
         self._home = home
         self._imports: set[str] = set()
         self._taken: list[str] = []
@@ -175,7 +176,7 @@ class _Module:
         blocks = ["\n".join(standard), "\n".join([*ours, *self._taken]), classes]
         return HEADER + "\n\n".join(filter(None, blocks)).rstrip("\n") + "\n"
 
-    def reference(self, cls: type[Message]) -> str:
+    def reference(self, cls: type[Structure]) -> str:
         """The class of a message, in this stub or another; both by way of their module."""
         module = self._home(cls)
         self._imports.add(module)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
 
 __all__ = ["message_repr", "message_text", "quote"]
 
@@ -35,7 +33,7 @@ _PLAIN = re.compile(r"[A-Za-z_/](?:(?!: |:\Z| #)[ -~])*(?<! )\Z")
 _WORDS = frozenset({"yes", "no", "true", "false", "on", "off", "null"})
 
 
-def message_repr(message: Message) -> str:
+def message_repr(message: Structure) -> str:
     """``Type(field=value, ...)``."""
     fields = []
     for name in message.__slots__:
