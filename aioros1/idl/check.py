@@ -158,6 +158,6 @@ def _scalar(builtin: Builtin, value: Any, path: str) -> Any:
         _wrong(path, builtin.name, value, why)
     if builtin.kind in ("time", "duration"):
         low, high = (0, 0xFFFFFFFF) if builtin.kind == "time" else (-(1 << 31), (1 << 31) - 1)
-        if not (low <= result._secs <= high and low <= result._nsecs <= high):
+        if not (low <= result.secs <= high and low <= result.nsecs <= high):
             _wrong(path, builtin.name, value, "out of the range of the wire")
     return result

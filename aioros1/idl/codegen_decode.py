@@ -28,6 +28,7 @@ before it is believed, unless the message is alone in ``data``.
 
 from __future__ import annotations
 
+from itertools import starmap
 from keyword import iskeyword
 from typing import Literal, TypeAlias
 
@@ -36,7 +37,7 @@ from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.codegen import Source
 from aioros1.idl.spec import Field
 from aioros1.idl.structure import Structure
-from aioros1.time import Duration, Time
+from aioros1.time import Duration, Time, raw_duration, raw_time
 
 __all__ = ["MAX_EMPTY", "Decoder", "Mode", "write_decoder"]
 
@@ -217,12 +218,13 @@ class Decoder:
         """A list of booleans or times."""
         if kind == "bool":
             return f"list(map(bool, {octets}))"
-        raw = self.out.fresh("raw")
         codes = ["II"] if kind == "time" else ["ii"]
         key, packer = self.out.structure(codes)
         rows = self.out.bind("r", packer.iter_unpack, ("rows", key))
-        self.out.globals["raw_" + kind] = (Time if kind == "time" else Duration)._raw
-        return f"[raw_{kind}(*{raw}) for {raw} in {rows}({octets})]"
+        self.out.globals["raw_" + kind] = raw_time if kind == "time" else raw_duration
+        self.out.globals["starmap"] = starmap
+        # Not a comprehension: each is a scope of its own, and slow to compile.
+        return f"list(starmap(raw_{kind}, {rows}({octets})))"
 
     def fixed(self, field: Field, owner: str, length: int) -> None:
         """A fixed array of a built-in type other than string: part of the run."""

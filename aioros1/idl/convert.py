@@ -17,7 +17,7 @@ from aioros1.idl.builtin_types import BUILTINS, Builtin
 from aioros1.idl.check import describe
 from aioros1.idl.spec import Field
 from aioros1.idl.structure import Structure
-from aioros1.time import Duration, Time
+from aioros1.time import Duration, Time, raw_duration, raw_time
 
 __all__ = ["arrays_to_numpy", "convert", "from_dict", "to_dict", "values_equal"]
 
@@ -211,7 +211,8 @@ def _item(cls: type[Structure], field: Field, value: Any, path: str) -> Any:
                 raise ValueError
             # As it stands: what a peer sent may not be normalised.
             secs, nsecs = value.get("secs", 0), value.get("nsecs", 0)
-            return kind._raw(secs.__index__(), nsecs.__index__())
+            raw = raw_time if kind is Time else raw_duration
+            return raw(secs.__index__(), nsecs.__index__())
         if isinstance(value, (int, float)):
             return kind(value)
     except (AttributeError, LookupError, ValueError, OverflowError):

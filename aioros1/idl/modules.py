@@ -16,8 +16,9 @@ from types import ModuleType
 from typing import Any
 
 from aioros1.errors import MessageNotFoundError
+from aioros1.idl.building import ACTION_SUFFIXES
 from aioros1.idl.paths import Kind
-from aioros1.idl.store import ACTION_SUFFIXES, MessageStore, default_store
+from aioros1.idl.store import MessageStore, default_store
 
 __all__ = [
     "DefinitionFinder",

@@ -74,9 +74,10 @@ class _Root:
 
     def crawled(self) -> dict[str, Path]:
         """The packages found by their files, read once."""
-        if self._crawled is None:
-            self._crawled = dict(_crawl(self.path)) if self.crawl else {}
-        return self._crawled
+        found = self._crawled
+        if found is None:
+            self._crawled = found = dict(_crawl(self.path)) if self.crawl else {}
+        return found
 
 
 def _subdirectories(path: Path | str) -> list[os.DirEntry[str]]:
@@ -142,13 +143,16 @@ class SearchPath:
     def _roots(self) -> list[_Root]:
         if not self._standard:
             return self._given
-        if self._fixed is None:
-            self._fixed = [_Root(path, crawl=False) for path in (*installed(), bundle())]
+        # Threads may do this at the same time: each reads once and replaces as a whole.
+        fixed = self._fixed
+        if fixed is None:
+            self._fixed = fixed = [_Root(p, crawl=False) for p in (*installed(), bundle())]
         value = os.environ.get("ROS_PACKAGE_PATH", "")
-        if self._environment[0] != value:
-            parts = filter(None, value.split(os.pathsep))
-            self._environment = value, [_Root(Path(part), crawl=True) for part in parts]
-        return [*self._given, *self._environment[1], *self._fixed]
+        known, roots = self._environment
+        if known != value:
+            roots = [_Root(Path(part), crawl=True) for part in value.split(os.pathsep) if part]
+            self._environment = value, roots
+        return [*self._given, *roots, *fixed]
 
     def find(self, package: str, name: str, kind: Kind) -> Path | None:
         """The file that defines ``package/name``, or None."""
@@ -176,3 +180,12 @@ class SearchPath:
     def places(self) -> list[str]:
         """The places searched, for an error."""
         return [str(root.path) for root in self._roots()]
+
+    def describe(self) -> str:
+        """What is searched, in a few words and without looking at any file."""
+        given = [str(root.path) for root in self._given]
+        if len(given) > 3:
+            given[2:] = [f"{len(given) - 2} more directories"]
+        if self._standard:
+            given.append("the standard places")
+        return ", ".join(given) or "no directories"

@@ -7,27 +7,34 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from threading import RLock
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, TypeAlias, TypeVar
 
 from aioros1.errors import MessageNotFoundError, MessageSpecError
 from aioros1.idl import digest
-from aioros1.idl.factory import make_message_class, specs_of
+from aioros1.idl.building import (
+    ACTION_SUFFIXES,
+    ActionClass,
+    Chain,
+    MessageClass,
+    ServiceClass,
+    build_action,
+    build_message,
+    build_service,
+    join_action,
+    join_service,
+    needed_by,
+)
+from aioros1.idl.check import describe
+from aioros1.idl.factory import specs_of
 from aioros1.idl.message import AnyMessage
 from aioros1.idl.parser import action_texts, parse_action, parse_message, parse_service, split_type
 from aioros1.idl.paths import KINDS, Kind, SearchPath
-from aioros1.idl.service import (
-    AnyAction,
-    AnyService,
-    make_action_class,
-    make_service_class,
-)
-from aioros1.idl.spec import MessageSpec, ServiceSpec
+from aioros1.idl.service import AnyAction, AnyService
+from aioros1.idl.spec import MessageSpec
 
 __all__ = [
-    "ACTION_SUFFIXES",
     "MessageStore",
     "default_store",
     "load_action",
@@ -37,24 +44,13 @@ __all__ = [
 ]
 
 _DEFAULT: Final = object()
-_MAX_DEPTH = 100
 _MAX_DEFINITIONS = 1000
 
-ACTION_SUFFIXES: Final = (
-    "ActionGoal",
-    "ActionResult",
-    "ActionFeedback",
-    "Action",
-    "Goal",
-    "Result",
-    "Feedback",
-)
+_ACTION_FIELDS: Final = ("action_goal", "action_result", "action_feedback")
+"""The fields of the message ``TypeAction`` that an action is given as in rospy."""
 
-# By other names, as `type` is a parameter in much of this module.
-_MessageClass: TypeAlias = type[AnyMessage]
-_ServiceClass: TypeAlias = type[AnyService]
+_V = TypeVar("_V")
 
-_Chain: TypeAlias = tuple[str, ...]
 _Source: TypeAlias = tuple[str, str]  # text, and the path for errors
 
 
@@ -79,10 +75,11 @@ class MessageStore:
         self._search = SearchPath(paths)
         self._parent = parent
         self._texts: dict[tuple[Kind, str], str] = {}
-        self._messages: dict[str, _MessageClass] = {}
-        self._services: dict[str, _ServiceClass] = {}
-        self._actions: dict[str, type[AnyAction]] = {}
-        self._definitions: dict[tuple[str, str], _MessageClass] = {}
+        self._messages: dict[str, MessageClass] = {}
+        self._services: dict[str, ServiceClass] = {}
+        self._actions: dict[str, ActionClass] = {}
+        self._definitions: dict[Any, MessageClass] = {}
+        self._joined: dict[Any, Any] = {}
         self._lock = RLock()
 
     @property
@@ -95,7 +92,7 @@ class MessageStore:
 
     # -- loading ----------------------------------------------------------------------
 
-    def load_msg(self, type: str) -> _MessageClass:
+    def load_msg(self, type: str) -> MessageClass:
         """The class of a message type, ``"pkg/Type"``.
 
         Raises :class:`MessageNotFoundError` when there is no definition of it or of a
@@ -108,17 +105,18 @@ class MessageStore:
         with self._lock:
             return self._load(type, ())
 
-    def load_srv(self, type: str) -> _ServiceClass:
+    def load_srv(self, type: str) -> ServiceClass:
         """The class of a service type; errors as for :meth:`load_msg`."""
         found = self._services.get(type)
         if found is not None:
             return found
         with self._lock:
-            service = self._load_srv(type)
-            self._services[type] = service
-            return service
+            found = self._services.get(type)
+            if found is None:
+                found = self._services[type] = self._load_srv(type)
+            return found
 
-    def load_action(self, type: str) -> type[AnyAction]:
+    def load_action(self, type: str) -> ActionClass:
         """The class of an action type; errors as for :meth:`load_msg`.
 
         The seven messages can be loaded by their own names, too.
@@ -127,17 +125,10 @@ class MessageStore:
         if found is not None:
             return found
         with self._lock:
-            source = self._source("action", type)
-            if source is None:
-                if self.parent is None:
-                    raise self._not_found(type, ("action",))
-                with self._searched_too():
-                    return self.parent.load_action(type)
-            spec = parse_action(type, source[0], path=source[1])
-            messages = {suffix: self._load(f"{type}{suffix}", (type,)) for suffix in spec.messages}
-            made = make_action_class(spec, messages, module=_module("action", type))
-            self._actions[type] = made
-            return made
+            found = self._actions.get(type)
+            if found is None:
+                found = self._actions[type] = self._load_action(type)
+            return found
 
     # -- adding -----------------------------------------------------------------------
 
@@ -168,8 +159,9 @@ class MessageStore:
             self._services.clear()
             self._actions.clear()
             self._definitions.clear()
+            self._joined.clear()
 
-    def add_definition(self, type: str, full_text: str) -> _MessageClass:
+    def add_definition(self, type: str, full_text: str) -> MessageClass:
         """The class for a definition with all it needs, as in a connection header or a bag.
 
         All types inside are read from this text, never from anywhere else. When the store
@@ -185,18 +177,18 @@ class MessageStore:
                 _remember(self._definitions, (type, full_text), found)
             return found
 
-    def _define(self, type: str, full_text: str) -> _MessageClass:
+    def _define(self, type: str, full_text: str) -> MessageClass:
         texts = digest.split_full_text(type, full_text)
-        made: dict[str, _MessageClass] = {}
+        made: dict[str, MessageClass] = {}
 
-        def load(name: str, chain: _Chain) -> _MessageClass:
+        def load(name: str, chain: Chain) -> MessageClass:
             if name not in made:
                 if name not in texts:
                     raise MessageNotFoundError(
-                        f"the definition of {type} lacks {name}{_needed_by(chain)}"
+                        f"the definition of {type} lacks {name}{needed_by(chain)}"
                     )
                 spec = parse_message(name, texts[name])
-                made[name] = _build(spec, load, chain)
+                made[name] = build_message(spec, load, chain)
             return made[name]
 
         cls = load(type, ())
@@ -225,15 +217,20 @@ class MessageStore:
 
     def packages(self) -> list[str]:
         """The names of all packages that have definitions, sorted."""
-        names = self._search.packages() | {split_type(type)[0] for _, type in self._texts}
+        with self._lock:
+            names = {split_type(type)[0] for _, type in self._texts}
+        names |= self._search.packages()
         return sorted(names.union(self.parent.packages() if self.parent else ()))
 
     def types(self, package: str, kind: Kind = "msg") -> list[str]:
         """All types of a package, as ``pkg/Type``, sorted."""
-        names = {f"{package}/{name}" for name in self._search.types(package, kind)}
-        names |= {
-            type for other, type in self._texts if other == kind and split_type(type)[0] == package
-        }
+        with self._lock:
+            names = {
+                type
+                for other, type in self._texts
+                if other == kind and split_type(type)[0] == package
+            }
+        names |= {f"{package}/{name}" for name in self._search.types(package, kind)}
         return sorted(names.union(self.parent.types(package, kind) if self.parent else ()))
 
     def places(self) -> list[str]:
@@ -243,46 +240,105 @@ class MessageStore:
 
     # -- what users hand over in place of a name ---------------------------------------
 
-    def resolve_msg(self, type_or_class: Any) -> _MessageClass:
-        """The class that is meant by a class of ours, ``"pkg/Type"`` or a class of genpy.
+    def resolve_msg(self, type_or_class: Any) -> MessageClass:
+        """The message class that a user means by a name or a class.
 
-        For a class that is not ours, one with the same MD5 sum: the store's, or one made
-        from the class's ``_full_text``. Raises :class:`TypeError` for anything else.
+        ``type_or_class`` is ``"pkg/Type"``, a message class of ours, which is returned as
+        it is, or one of genpy's. For a class of genpy's you get a class of ours with the
+        same MD5 sum: the store's if it knows such a type, otherwise one made from the
+        class's own definition.
+
+        Raises :class:`TypeError` for anything else, and errors as :meth:`load_msg` does.
         """
-        if isinstance(type_or_class, type):
+        if isinstance(type_or_class, str):
+            return self.load_msg(type_or_class)
+        if isinstance(type_or_class, type) and isinstance(_genpy(type_or_class, "_type"), str):
             if issubclass(type_or_class, AnyMessage):
                 return type_or_class
-            type_ = getattr(type_or_class, "_type", None)
-            md5sum = getattr(type_or_class, "_md5sum", None)
-            text = getattr(type_or_class, "_full_text", None)
-            if isinstance(type_, str) and isinstance(md5sum, str) and isinstance(text, str):
+            type_ = _genpy(type_or_class, "_type")
+            md5sum = _genpy(type_or_class, "_md5sum")
+            text = _genpy(type_or_class, "_full_text")
+            parts = _genpy(type_or_class, "_request_class")
+            if isinstance(md5sum, str) and isinstance(text, str) and parts is None:
                 return self._foreign(type_, md5sum, text)
-        elif isinstance(type_or_class, str):
-            return self.load_msg(type_or_class)
-        raise TypeError(f"{type_or_class!r} is neither a message class nor 'package/Type'")
+        raise _not_a_type("a message", type_or_class)
 
-    def resolve_srv(self, type_or_class: Any) -> _ServiceClass:
-        """The same for services."""
-        if isinstance(type_or_class, type):
+    def resolve_srv(self, type_or_class: Any) -> ServiceClass:
+        """The service class that a user means by a name or a class.
+
+        Takes names, classes of ours and classes of genpy's, as :meth:`resolve_msg` does;
+        so for the errors.
+        """
+        if isinstance(type_or_class, str):
+            return self.load_srv(type_or_class)
+        if isinstance(type_or_class, type) and isinstance(_genpy(type_or_class, "_type"), str):
             if issubclass(type_or_class, AnyService):
                 return type_or_class
-            type_ = getattr(type_or_class, "_type", None)
-            md5sum = getattr(type_or_class, "_md5sum", None)
-            request = getattr(type_or_class, "_request_class", None)
-            response = getattr(type_or_class, "_response_class", None)
-            if isinstance(type_, str) and isinstance(request, type) and isinstance(response, type):
+            request = _genpy(type_or_class, "_request_class")
+            response = _genpy(type_or_class, "_response_class")
+            if isinstance(request, type) and isinstance(response, type):
+                type_ = _genpy(type_or_class, "_type")
+                md5sum = _genpy(type_or_class, "_md5sum")
                 try:
                     known = self.load_srv(type_)
                 except (MessageNotFoundError, MessageSpecError):
                     known = None
                 if known is not None and known._md5sum == md5sum:
                     return known
-                return _join_service(type_, self.resolve_msg(request), self.resolve_msg(response))
-        elif isinstance(type_or_class, str):
-            return self.load_srv(type_or_class)
-        raise TypeError(f"{type_or_class!r} is neither a service class nor 'package/Type'")
+                parts = self.resolve_msg(request), self.resolve_msg(response)
+                made: ServiceClass = self._join(
+                    (type_, *parts), lambda: join_service(type_, *parts)
+                )
+                return made
+        raise _not_a_type("a service", type_or_class)
 
-    def _foreign(self, type: str, md5sum: str, full_text: str) -> _MessageClass:
+    def resolve_action(self, type_or_class: Any) -> ActionClass:
+        """The action class that a user means by a name or a class.
+
+        ``type_or_class`` is ``"pkg/Type"``, an action class of ours, which is returned as
+        it is, or what rospy's actionlib takes: the message class ``TypeAction``, genpy's
+        or ours.
+
+        Raises :class:`TypeError` for anything else, and errors as :meth:`load_action` does.
+        """
+        if isinstance(type_or_class, str):
+            return self.load_action(type_or_class)
+        if isinstance(type_or_class, type) and isinstance(_genpy(type_or_class, "_type"), str):
+            if issubclass(type_or_class, AnyAction):
+                return type_or_class
+            if tuple(type_or_class.__dict__.get("__slots__", ())) == _ACTION_FIELDS:
+                return self._action_of(self.resolve_msg(type_or_class))
+        raise _not_a_type("an action", type_or_class)
+
+    def __repr__(self) -> str:
+        loaded = len(self._messages) + len(self._services) + len(self._actions)
+        what = [self._search.describe()]
+        if self._texts:
+            what.append(f"{len(self._texts)} added texts")
+        return f"<MessageStore: {', '.join([*what, f'{loaded} types loaded'])}>"
+
+    def _action_of(self, message: MessageClass) -> ActionClass:
+        """The action whose message ``TypeAction`` this is."""
+        type = message._type.removesuffix("Action")
+        try:
+            known = self.load_action(type)
+        except (MessageNotFoundError, MessageSpecError):
+            known = None
+        if known is not None and known._md5sum == message._md5sum:
+            return known
+        made: ActionClass = self._join(message, lambda: join_action(message))
+        return made
+
+    def _join(self, key: Any, make: Callable[[], Any]) -> Any:
+        """What ``make`` makes of classes, once for each key."""
+        with self._lock:
+            made = self._joined.get(key)
+            if made is None:
+                made = make()
+                _remember(self._joined, key, made)
+            return made
+
+    def _foreign(self, type: str, md5sum: str, full_text: str) -> MessageClass:
         try:
             known = self.load_msg(type)
             if known._md5sum == md5sum:
@@ -324,7 +380,7 @@ class MessageStore:
                     return parse_message(type, text, path=source[1])
         return None
 
-    def _load(self, type: str, chain: _Chain) -> _MessageClass:
+    def _load(self, type: str, chain: Chain) -> MessageClass:
         found = self._messages.get(type)
         if found is not None:
             return found
@@ -335,16 +391,17 @@ class MessageStore:
                 self._messages[type] = inherited
                 return inherited
             spec = inherited._spec
-        cls = _build(spec, self._load, chain)
+        cls = build_message(spec, self._load, chain)
         self._messages[type] = cls
         return cls
 
-    def _inherited(self, type: str, chain: _Chain) -> _MessageClass:
+    def _inherited(self, type: str, chain: Chain) -> MessageClass:
         """The parent's class, or as a last resort one that a peer has defined."""
         try:
             if self.parent is None:
                 raise self._not_found(type, ("msg",), chain)
-            with self._searched_too():
+            # Locks are taken from a store to its parent, and never the other way.
+            with self._searched_too(), self.parent._lock:
                 return self.parent._load(type, chain)
         except MessageNotFoundError:
             for (name, _), cls in self._definitions.items():
@@ -355,7 +412,7 @@ class MessageStore:
     def _overrides(self, types: Iterable[str]) -> bool:
         return any(self._source("msg", type) is not None for type in types)
 
-    def _load_srv(self, type: str) -> _ServiceClass:
+    def _load_srv(self, type: str) -> ServiceClass:
         source = self._source("srv", type)
         if source is None:
             if self.parent is None:
@@ -369,14 +426,32 @@ class MessageStore:
             spec = inherited._spec
         else:
             spec = parse_service(type, source[0], path=source[1])
-        return _build_service(spec, self._load)
+        return build_service(spec, self._load)
+
+    def _load_action(self, type: str) -> ActionClass:
+        source = self._source("action", type)
+        if source is None:
+            if self.parent is None:
+                raise self._not_found(type, ("action",))
+            with self._searched_too():
+                inherited = self.parent.load_action(type)
+            spec = inherited._spec
+        else:
+            inherited = None
+            spec = parse_action(type, source[0], path=source[1])
+        messages = {suffix: self._load(f"{type}{suffix}", (type,)) for suffix in spec.messages}
+        if inherited is not None and all(
+            getattr(inherited, suffix) is cls for suffix, cls in messages.items()
+        ):
+            return inherited
+        return build_action(spec, messages)
 
     def _not_found(
-        self, type: str, kinds: tuple[Kind, ...], chain: _Chain = ()
+        self, type: str, kinds: tuple[Kind, ...], chain: Chain = ()
     ) -> MessageNotFoundError:
         files = ", ".join(f".{kind}" for kind in kinds)
         return MessageNotFoundError(
-            f"no definition ({files}) of {type}{_needed_by(chain)}", self.places()
+            f"no definition ({files}) of {type}{needed_by(chain)}", self.places()
         )
 
     @contextmanager
@@ -390,81 +465,35 @@ class MessageStore:
             raise
 
 
-def _remember(
-    definitions: dict[tuple[str, str], _MessageClass], key: tuple[str, str], cls: _MessageClass
-) -> None:
-    """Keep a definition, and drop the oldest: peers send them, and one may have no end of them."""
-    while len(definitions) >= _MAX_DEFINITIONS:
-        del definitions[next(iter(definitions))]
-    definitions[key] = cls
+def _remember(kept: dict[Any, _V], key: Any, value: _V) -> None:
+    """Keep a value, and drop the oldest: peers send definitions, and one may send any number."""
+    while len(kept) >= _MAX_DEFINITIONS:
+        del kept[next(iter(kept))]
+    kept[key] = value
 
 
-def _needed_by(chain: _Chain) -> str:
-    return f", needed by {' -> '.join(chain)}" if chain else ""
+def _genpy(cls: object, name: str) -> Any:
+    """A class attribute by genpy's name, or None."""
+    return getattr(cls, name, None)
 
 
-def _module(kind: Kind, type: str) -> str:
-    return f"aioros1.{kind}.{type.partition('/')[0]}"
-
-
-_Load: TypeAlias = Callable[[str, _Chain], _MessageClass]
-
-
-def _build(spec: MessageSpec, load: _Load, chain: _Chain, *, kind: Kind = "msg") -> _MessageClass:
-    """Make a class, with ``load`` for the types of its fields."""
-    chain = (*chain, spec.type)
-    if len(chain) > _MAX_DEPTH:
-        raise MessageSpecError(f"types nested over {_MAX_DEPTH} deep", path=chain[0])
-    nested = {}
-    for name in spec.dependencies:
-        if name in chain:
-            circle = " -> ".join((*chain[chain.index(name) :], name))
-            raise MessageSpecError(f"a type that contains itself: {circle}", path=spec.type)
-        nested[name] = load(name, chain)
-    specs = {name: cls._spec for name, cls in nested.items()}
-    sums = {name: cls._md5sum for name, cls in nested.items()}
-    return make_message_class(
-        spec,
-        nested,
-        md5sum=digest.md5sum(spec, specs.__getitem__, sums),
-        module=_module(kind, spec.type),
-    )
-
-
-def _build_service(spec: ServiceSpec, load: _Load) -> _ServiceClass:
-    request = _build(spec.request, load, (spec.type,), kind="srv")
-    response = _build(spec.response, load, (spec.type,), kind="srv")
-    return _service(spec, request, response)
-
-
-def _join_service(type: str, request: _MessageClass, response: _MessageClass) -> _ServiceClass:
-    """A service from its two messages, whose texts are all there is of a definition."""
-    text = f"{request._spec.text}---\n{response._spec.text}"
-    return _service(ServiceSpec(type, request._spec, response._spec, text), request, response)
-
-
-def _service(spec: ServiceSpec, request: _MessageClass, response: _MessageClass) -> _ServiceClass:
-    lookup = specs_of([request, response]).__getitem__
-    return make_service_class(
-        spec,
-        request,
-        response,
-        md5sum=digest.md5sum(spec, lookup),
-        full_text=digest.full_text(spec, lookup),
-        module=_module("srv", spec.type),
-    )
+def _not_a_type(kind: str, value: Any) -> TypeError:
+    """The error for what is not the type of a message, service or action."""
+    name = _genpy(value, "_type")
+    if not isinstance(name, str):
+        got = describe(value)
+    elif not isinstance(value, type):
+        got = f"a message of {name}: hand over its class"
+    elif issubclass(value, AnyAction):
+        got = f"the action class {name}"
+    elif _genpy(value, "_request_class") is not None:
+        got = f"the service class {name}"
+    else:
+        got = f"the message class {name}"
+    return TypeError(f"expected {kind} class or 'package/Type', got {got}")
 
 
 # -- the store that is used when none is named ----------------------------------------
-
-
-@cache
-def default_store() -> MessageStore:
-    """The store of the environment, the installed ROS and the bundle.
-
-    The classes in :mod:`aioros1.msg` and its siblings are those of this store.
-    """
-    return standard_store()
 
 
 def standard_store(paths: Iterable[str | os.PathLike[str]] = ()) -> MessageStore:
@@ -474,16 +503,27 @@ def standard_store(paths: Iterable[str | os.PathLike[str]] = ()) -> MessageStore
     return store
 
 
-def load_msg(type: str) -> _MessageClass:
+_default_store: Final = standard_store()  # reads nothing before it is asked for a type
+
+
+def default_store() -> MessageStore:
+    """The store of the environment, the installed ROS and the bundle.
+
+    The classes in :mod:`aioros1.msg` and its siblings are those of this store.
+    """
+    return _default_store
+
+
+def load_msg(type: str) -> MessageClass:
     """:meth:`MessageStore.load_msg` of the default store."""
     return default_store().load_msg(type)
 
 
-def load_srv(type: str) -> _ServiceClass:
+def load_srv(type: str) -> ServiceClass:
     """:meth:`MessageStore.load_srv` of the default store."""
     return default_store().load_srv(type)
 
 
-def load_action(type: str) -> type[AnyAction]:
+def load_action(type: str) -> ActionClass:
     """:meth:`MessageStore.load_action` of the default store."""
     return default_store().load_action(type)

@@ -14,12 +14,13 @@ from pathlib import Path, PurePosixPath
 from typing import Literal, TypeAlias
 
 from aioros1.errors import MessageError
+from aioros1.idl.building import ACTION_SUFFIXES
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.message import Message
 from aioros1.idl.modules import names_of
 from aioros1.idl.paths import KINDS, Kind, bundle
 from aioros1.idl.spec import Constant, ConstantValue, Field
-from aioros1.idl.store import ACTION_SUFFIXES, MessageStore
+from aioros1.idl.store import MessageStore
 from aioros1.idl.structure import Structure
 
 __all__ = ["HEADER", "Layout", "Stubs", "bundled_store", "bundled_stubs", "write_stubs"]

@@ -16,7 +16,7 @@ from collections.abc import Set as AbstractSet
 from math import inf, isinf
 from typing import Any, Final
 
-from aioros1.time import Duration, Time
+from aioros1.time import Duration, Time, raw_duration, raw_time
 
 __all__ = [
     "as_bool",
@@ -60,14 +60,14 @@ def as_time(value: Any) -> Time:
     """Anything with whole ``secs`` and ``nsecs``, such as genpy's."""
     if isinstance(value, Duration):
         raise TypeError("a duration is not a time")
-    return Time._raw(value.secs.__index__(), value.nsecs.__index__())
+    return raw_time(value.secs.__index__(), value.nsecs.__index__())
 
 
 def as_duration(value: Any) -> Duration:
     """Anything with whole ``secs`` and ``nsecs``, such as genpy's."""
     if isinstance(value, Time):
         raise TypeError("a time is not a duration")
-    return Duration._raw(value.secs.__index__(), value.nsecs.__index__())
+    return raw_duration(value.secs.__index__(), value.nsecs.__index__())
 
 
 def as_bool(value: Any) -> bool:
@@ -167,16 +167,21 @@ def string_packer() -> Callable[[Any], bytes]:
     Lists of names are mostly the same from one message to the next, and comparing lists
     of the same strings costs a tenth of packing them.
     """
-    last: tuple[Any, bytes] = ([], b"")
+    # Threads share this: it is read once, and replaced as a whole.
+    last: tuple[list[str], bytes] = ([], b"")
 
     def pack(values: Any) -> bytes:
         nonlocal last
-        if values == last[0]:
-            return last[1]
-        octets = pack_strings(values)
+        known, octets = last
+        if values == known:
+            return octets
+        # A copy is packed, so that what is remembered is what was packed even if another
+        # thread changes the list meanwhile.
+        items = list(values)
+        octets = pack_strings(items)
         # Other lists may be equal to one that has more in it than strings.
-        if len(octets) <= _REMEMBERED and {str}.issuperset(map(type, values)):
-            last = list(values), octets
+        if len(octets) <= _REMEMBERED and {str}.issuperset(map(type, items)):
+            last = items, octets
         return octets
 
     return pack
@@ -188,12 +193,14 @@ def string_reader(escape: bool) -> Callable[[bytes, int, int, int], tuple[list[s
     It takes the data, the position, the end and the number of strings, and gives the list
     and the position behind it. Running out of data is some exception.
     """
+    # Threads share this: it is read once, and replaced as a whole.
     last: tuple[int, bytes, list[str]] = (0, b"", [])
 
     def read(data: bytes, pos: int, end: int, count: int) -> tuple[list[str], int]:
         nonlocal last
-        if count == last[0] and data.startswith(last[1], pos, end):
-            return last[2].copy(), pos + len(last[1])
+        number, block, known = last
+        if count == number and data.startswith(block, pos, end):
+            return known.copy(), pos + len(block)
         texts: list[str] = []
         add = texts.append
         start = pos
@@ -228,7 +235,7 @@ def pack_times(values: Any) -> bytes:
     parts = []
     for value in values:
         time = value if value.__class__ is Time else as_time(value)
-        parts.append(_pack_time(time._secs, time._nsecs))
+        parts.append(_pack_time(time.secs, time.nsecs))
     return b"".join(parts)
 
 
@@ -237,7 +244,7 @@ def pack_durations(values: Any) -> bytes:
     parts = []
     for value in values:
         duration = value if value.__class__ is Duration else as_duration(value)
-        parts.append(_pack_duration(duration._secs, duration._nsecs))
+        parts.append(_pack_duration(duration.secs, duration.nsecs))
     return b"".join(parts)
 
 

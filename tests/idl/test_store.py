@@ -347,9 +347,9 @@ class TestResolving:
 
     @pytest.mark.parametrize("value", [5, None, int, object()])
     def test_anything_else(self, value: Any) -> None:
-        with pytest.raises(TypeError, match="neither a message class nor"):
+        with pytest.raises(TypeError, match="expected a message class or 'package/Type'"):
             MessageStore().resolve_msg(value)
-        with pytest.raises(TypeError, match="neither a service class nor"):
+        with pytest.raises(TypeError, match="expected a service class or 'package/Type'"):
             MessageStore().resolve_srv(value)
 
 
