@@ -35,10 +35,9 @@ def install_importer(*, store: MessageStore | None = None, shadow: bool = False)
         if isinstance(finder, _TypesFinder) and (finder.store, finder.shadow) == (store, shadow):
             return
     uninstall_importer()
-    # A directory with definitions looks like a package without code, and is not to win
-    # against us; packages with code are to win, and what belongs to them.
-    sys.meta_path.insert(0, _TypesFinder(store, shadow))
-    sys.meta_path.append(_PackageFinder(store))
+    # A directory with definitions looks like a package without code, and must not win
+    # against us; packages with code must win, and with them what belongs to them.
+    sys.meta_path[:] = [_TypesFinder(store, shadow), *sys.meta_path, _PackageFinder(store)]
 
 
 def uninstall_importer() -> None:

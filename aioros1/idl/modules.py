@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
+from threading import Lock
 from types import ModuleType
 from typing import Any
 
@@ -150,11 +151,15 @@ class _OurFinder(DefinitionFinder):
         return DefinitionLoader(store, package, kind) if names_of(store, package, kind) else None
 
 
+_installing = Lock()  # two threads may import aioros1.msg and aioros1.srv
+
+
 def install_finder() -> None:
     """Make the modules importable; the second time does nothing."""
-    if not any(isinstance(finder, _OurFinder) for finder in sys.meta_path):
-        # In front, as the directories with stubs look like packages without code.
-        sys.meta_path.insert(0, _OurFinder())
+    with _installing:
+        if not any(isinstance(finder, _OurFinder) for finder in sys.meta_path):
+            # In front, as the directories with stubs look like packages without code.
+            sys.meta_path.insert(0, _OurFinder())
 
 
 def package_module(parent: str, name: str) -> ModuleType:
