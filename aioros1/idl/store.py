@@ -258,8 +258,9 @@ class MessageStore:
             type_ = _genpy(type_or_class, "_type")
             md5sum = _genpy(type_or_class, "_md5sum")
             text = _genpy(type_or_class, "_full_text")
-            parts = _genpy(type_or_class, "_request_class")
-            if isinstance(md5sum, str) and isinstance(text, str) and parts is None:
+            is_service = _genpy(type_or_class, "_request_class") is not None
+            is_other = is_service or issubclass(type_or_class, AnyAction)
+            if isinstance(md5sum, str) and isinstance(text, str) and not is_other:
                 return self._foreign(type_, md5sum, text)
         raise _not_a_type("a message", type_or_class)
 
@@ -312,10 +313,10 @@ class MessageStore:
 
     def __repr__(self) -> str:
         loaded = len(self._messages) + len(self._services) + len(self._actions)
-        what = [self._search.describe()]
-        if self._texts:
-            what.append(f"{len(self._texts)} added texts")
-        return f"<MessageStore: {', '.join([*what, f'{loaded} types loaded'])}>"
+        added = f", {_counted(len(self._texts), 'added text')}" if self._texts else ""
+        return (
+            f"<MessageStore: {self._search.describe()}{added}, {_counted(loaded, 'type')} loaded>"
+        )
 
     def _action_of(self, message: MessageClass) -> ActionClass:
         """The action whose message ``TypeAction`` this is."""
@@ -450,8 +451,14 @@ class MessageStore:
         self, type: str, kinds: tuple[Kind, ...], chain: Chain = ()
     ) -> MessageNotFoundError:
         files = ", ".join(f".{kind}" for kind in kinds)
+        others = [
+            f".{kind}"
+            for kind in KINDS
+            if kind not in kinds and self._source(kind, type) is not None
+        ]
+        hint = f", which has a {' and a '.join(others)}" if others else ""
         return MessageNotFoundError(
-            f"no definition ({files}) of {type}{needed_by(chain)}", self.places()
+            f"no definition ({files}) of {type}{hint}{needed_by(chain)}", self.places()
         )
 
     @contextmanager
@@ -470,6 +477,10 @@ def _remember(kept: dict[Any, _V], key: Any, value: _V) -> None:
     while len(kept) >= _MAX_DEFINITIONS:
         del kept[next(iter(kept))]
     kept[key] = value
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"
 
 
 def _genpy(cls: object, name: str) -> Any:
