@@ -1,10 +1,10 @@
-"""Which value does not fit its field: the slow walk after an encoder has failed.
+"""Finds the value that does not fit its field, after an encoder has failed.
 
-It makes a clean copy as it goes. An encoder may fail for a value that is fine but of an
-unusual kind; the copy then holds a usual one, and is encoded in its place.
+The walk makes a clean copy as it goes. An encoder may fail for a value that is fine but of
+an unusual class; the copy then holds one of the usual class, and is encoded instead.
 
-Values come from applications and may be of any class: whatever exception they raise when
-they are looked at, it means that they do not fit.
+Values come from applications and may be of any class. If one raises an exception when it
+is looked at, whichever it is, then the value does not fit.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ _CONVERT: dict[str, Callable[[Any], Any]] = {
 
 
 def describe(value: Any) -> str:
-    """A value as it appears in an error: short, whatever it is."""
+    """A value as it is shown in an error: short, and never an exception."""
     try:
         return _describe(value)
     except Exception:
-        # Of integers, too, not all can be printed.
+        # Not even all integers can be printed.
         return f"a value of type {type(value).__name__}"
 
 
@@ -54,7 +54,7 @@ def _describe(value: Any) -> str:
 
 
 def normalise(cls: type[Structure], message: Any) -> Structure:
-    """A copy of the message with a usual value in each field.
+    """A copy of the message in which each field has a value of the usual class.
 
     Raises :class:`SerializationError` with the path of the first field whose value is
     missing or does not fit.
@@ -128,7 +128,7 @@ def _numbers(builtin: Builtin, field: Field, value: Any, path: str) -> Any:
         _wrong(path, field.type, value, str(exc))
     if builtin.octets:
         return bytes(result)
-    # Wire-ready by now, and little-endian; the encoder swaps native arrays only.
+    # The bytes are little-endian by now, but the encoder expects a native array.
     return values.load_array(builtin.code, memoryview(result).tobytes())
 
 

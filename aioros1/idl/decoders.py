@@ -1,4 +1,4 @@
-"""Decoders: the functions that the generated sources make."""
+"""Compiles decoders from the sources that the generators write."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ __all__ = ["make_decoder", "make_whole_decoder"]
 
 
 def make_decoder(cls: type[Structure], mode: Mode) -> Callable[[Any, int, int], Any]:
-    """A decoder of the octets between two positions; some may be left over."""
+    """Compile a decoder of the bytes between two positions; some may be left over."""
     out = Source("decode", "data, pos, end")
     return _compile(out, cls, mode, "pos", exact=False)
 
 
 def make_whole_decoder(cls: type[Structure]) -> Callable[..., Any]:
-    """A decoder of a buffer that is one message, and nothing else."""
-    # Not keyword-only, as the method is: that would make each call slower by a tenth.
+    """Compile a decoder of a buffer that is one message and nothing else."""
+    # The parameter of the method is keyword-only. Here that would cost a tenth of the time.
     out = Source("from_bytes", "data, views=False")
     out.globals["as_bytes"] = _as_bytes
     out.globals["shown"] = made_later(lambda: _make_whole(cls, "views", _as_view))
@@ -46,7 +46,7 @@ def _as_bytes(buffer: Any) -> bytes:
 
 
 def _as_view(buffer: Any) -> memoryview:
-    """The octets of a buffer, where they are."""
+    """The bytes of a buffer, without a copy."""
     return memoryview(buffer).cast("B")
 
 
@@ -63,7 +63,7 @@ def _compile(
     out.line(f"return {root}")
     out.depth -= 1
     if mode == "bytes":
-        # Text that is not UTF-8: rare enough for a decoder of its own.
+        # Text that is not UTF-8 is rare, and has a decoder of its own.
         if exact:
             out.globals["escaped"] = made_later(lambda: _make_whole(cls, "escape", _as_bytes))
         else:

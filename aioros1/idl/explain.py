@@ -1,4 +1,4 @@
-"""Why octets are not a message: the slow reader that runs after a decoder has failed."""
+"""Finds out why bytes are not a message, after a decoder has failed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _length = struct.Struct("<I").unpack_from
 
 
 class _Reader:
-    """Steps over the fields of a message, making nothing, until one does not fit."""
+    """Steps over the fields of a message, and makes nothing, until one does not fit."""
 
     def __init__(self, cls: type[Structure], data: Any, pos: int, end: int) -> None:
         self.cls = cls
@@ -81,7 +81,7 @@ class _Reader:
 def explainer(
     cls: type[Structure], *, exact: bool
 ) -> Callable[[Any, int, int], DeserializationError]:
-    """The function that a decoder of ``cls`` calls to say what was wrong."""
+    """The function that a decoder of ``cls`` calls for the error that it raises."""
 
     def explain(data: Any, pos: int, end: int) -> DeserializationError:
         reader = _Reader(cls, data, pos, end)

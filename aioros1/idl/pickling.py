@@ -1,4 +1,4 @@
-"""Pickling of messages, whose classes are made at run time."""
+"""Pickles messages, whose classes are made at run time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _store = MessageStore()
 
 
 def reduce_message(message: Message) -> tuple[Any, ...]:
-    """By the class's name where that leads to the class, else by its definition."""
+    """Pickle by the name of the class if an import finds it, otherwise by its definition."""
     cls = type(message)
     values = tuple(
         own_memory(value) if isinstance(value, memoryview) else value

@@ -1,4 +1,4 @@
-"""The store: types by name, made from definitions wherever these are found."""
+"""The store: gives the classes of types by name, from definitions wherever they are."""
 
 # ruff: noqa: A001 - `type` is what ROS calls the name of a type, and part of the contract
 
@@ -55,13 +55,15 @@ _Source: TypeAlias = tuple[str, str]  # text, and the path for errors
 
 
 class MessageStore:
-    """Loads types by name, each once.
+    """Loads types by name, each of them once.
 
     ``paths`` are searched first: directories with packages at any depth, single packages,
-    or ``msg`` directories. What is found neither there nor among the texts added is left
-    to ``parent``, by default :func:`default_store`; None is for a store that knows
-    nothing but its own. Types of the parent that contain a type this store has a
-    definition of are made anew, with that definition.
+    or ``msg`` directories. Types that are neither there nor among the texts that were added
+    are looked up in ``parent``, by default :func:`~aioros1.idl.default_store`. With None
+    the store knows only its own definitions. If a type of the parent contains a type that
+    this store defines itself, it is made anew with that definition.
+
+    A store can be used from several threads.
     """
 
     def __init__(
@@ -84,7 +86,7 @@ class MessageStore:
 
     @property
     def parent(self) -> MessageStore | None:
-        """The store that is asked for what this one does not have."""
+        """The store in which types are looked up that this one does not define; may be None."""
         if self._parent is _DEFAULT:
             self._parent = default_store()
         assert self._parent is None or isinstance(self._parent, MessageStore)
@@ -95,9 +97,9 @@ class MessageStore:
     def load_msg(self, type: str) -> MessageClass:
         """The class of a message type, ``"pkg/Type"``.
 
-        Raises :class:`MessageNotFoundError` when there is no definition of it or of a
-        type inside it, :class:`MessageSpecError` when one cannot be read, and
-        :class:`InvalidNameError`.
+        Raises :class:`MessageNotFoundError` if there is no definition of the type or of one
+        inside it, :class:`MessageSpecError` if a definition cannot be read, and
+        :class:`InvalidNameError` if ``type`` is not such a name.
         """
         found = self._messages.get(type)
         if found is not None:
@@ -119,7 +121,7 @@ class MessageStore:
     def load_action(self, type: str) -> ActionClass:
         """The class of an action type; errors as for :meth:`load_msg`.
 
-        The seven messages can be loaded by their own names, too.
+        You can also load each of its seven messages by name.
         """
         found = self._actions.get(type)
         if found is not None:
@@ -133,11 +135,11 @@ class MessageStore:
     # -- adding -----------------------------------------------------------------------
 
     def add_text(self, type: str, text: str, *, kind: Kind | None = None) -> None:
-        """Define a type by the text of a file, in place of any file there is.
+        """Define a type by a text, which goes before any file.
 
-        Without ``kind`` the lines of three dashes tell: none for a message, one for a
-        service, two for an action. Types that the definition needs may be added later.
-        Classes already made from a former definition stay what they are. Raises
+        Without ``kind`` the lines of three dashes decide: none for a message, one for a
+        service, two for an action. Types that the definition needs can be added later.
+        Classes that were made from an earlier definition do not change. Raises
         :class:`MessageSpecError` and :class:`InvalidNameError`.
         """
         if kind is None:
@@ -162,12 +164,12 @@ class MessageStore:
             self._joined.clear()
 
     def add_definition(self, type: str, full_text: str) -> MessageClass:
-        """The class for a definition with all it needs, as in a connection header or a bag.
+        """The class for a complete definition, as connection headers and bags have it.
 
-        All types inside are read from this text, never from anywhere else. When the store
-        knows the type by the same MD5 sum, its class is returned. Otherwise the new class
-        stands beside those of the store: loading by name finds it only when there is
-        nothing else by that name.
+        All types inside are read from this text, and from nowhere else. If the store knows
+        the type with the same MD5 sum, you get the class of the store. Otherwise the new
+        class does not replace that of the store: a load by name finds it only if there is
+        no other definition of that name. Raises errors as :meth:`load_msg` does.
         """
         with self._lock:
             # Every connection to a topic brings the same text again.
@@ -204,7 +206,7 @@ class MessageStore:
     # -- looking ----------------------------------------------------------------------
 
     def find(self, type: str, kind: Kind | None = None) -> Path:
-        """The file that defines a type; :class:`MessageNotFoundError` when there is none."""
+        """The file that defines a type. Raises :class:`MessageNotFoundError` if none does."""
         package, name = split_type(type)
         for wanted in (kind,) if kind else KINDS:
             path = self._search.find(package, name, wanted)
@@ -234,7 +236,7 @@ class MessageStore:
         return sorted(names.union(self.parent.types(package, kind) if self.parent else ()))
 
     def places(self) -> list[str]:
-        """The directories that are searched, in this order."""
+        """The directories that are searched, in order."""
         inherited = self.parent.places() if self.parent else []
         return list(dict.fromkeys([*self._search.places(), *inherited]))
 
@@ -363,15 +365,15 @@ class MessageStore:
         path = self._search.find(*split_type(type), kind)
         if path is None:
             return None
-        # Definitions are ASCII by rule; a comment in Latin-1 must not be the end of it, and
-        # a constant keeps its octets, which count for the MD5 sum.
+        # Definitions have to be ASCII. But a comment in Latin-1 does no harm, and a constant
+        # keeps its bytes, which count for the MD5 sum.
         return path.read_text(encoding="utf-8", errors="surrogateescape"), str(path)
 
     def _spec(self, type: str) -> MessageSpec | None:
         source = self._source("msg", type)
         if source is not None:
             return parse_message(type, source[0], path=source[1])
-        # The messages of an action exist as files only where it has been built.
+        # The messages of an action have files only where the action has been built.
         for suffix in ACTION_SUFFIXES:
             base = type.removesuffix(suffix)
             if base != type and not base.endswith("/"):
@@ -397,7 +399,7 @@ class MessageStore:
         return cls
 
     def _inherited(self, type: str, chain: Chain) -> MessageClass:
-        """The parent's class, or as a last resort one that a peer has defined."""
+        """The class of the parent; if it has none, one that a peer has defined."""
         try:
             if self.parent is None:
                 raise self._not_found(type, ("msg",), chain)
@@ -463,7 +465,7 @@ class MessageStore:
 
     @contextmanager
     def _searched_too(self) -> Iterator[None]:
-        """What the parent does not find was looked for here before."""
+        """If the parent does not find a type, the error names the places of this store too."""
         try:
             yield
         except MessageNotFoundError as error:

@@ -1,4 +1,4 @@
-"""Messages for people: ``repr`` and the YAML-like text that rostopic shows."""
+"""Shows messages: their ``repr``, and the YAML-like text that rostopic prints."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _ESCAPES = {
     "\u2029": "\\P",
 }
 _UNSAFE = re.compile(r'[^ -~]|["\\]')
-# Strings that YAML reads as strings without quotes; not all of them, but most names.
+# Strings that need no quotes in YAML; not all of them, but most names.
 _PLAIN = re.compile(r"[A-Za-z_/](?:(?!: |:\Z| #)[ -~])*(?<! )\Z")
 _WORDS = frozenset({"yes", "no", "true", "false", "on", "off", "null"})
 
@@ -44,7 +44,7 @@ def message_repr(message: Structure) -> str:
 
 
 def message_text(message: Any, indent: str = "") -> str:
-    """One line per field, as genpy prints messages; nested ones are indented."""
+    """One line for each field, as genpy prints messages; nested messages are indented."""
     lines = [
         f"{indent}{name}: {_text(getattr(message, name, None), indent + '  ')}"
         for name in message.__slots__
@@ -97,7 +97,7 @@ def _list(values: list[Any] | tuple[Any, ...], indent: str) -> str:
 
 
 def _item(value: Any) -> str:
-    """A string in a list: without quotes where it needs none."""
+    """A string in a list, without quotes if it needs none."""
     if not isinstance(value, str):
         return str(value)
     if _PLAIN.match(value) and value.lower() not in _WORDS:
