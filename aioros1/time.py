@@ -11,7 +11,7 @@ from operator import index
 from time import time_ns
 from typing import Any, ClassVar, Final, TypeVar, overload
 
-__all__ = ["Duration", "Time"]
+__all__ = ["Duration", "Time", "raw_duration", "raw_time"]
 
 _SECOND: Final = 1_000_000_000
 _new = object.__new__
@@ -312,3 +312,8 @@ class Duration(_TimeValue):
         if isinstance(other, Duration):
             return self.to_nsec() >= other.to_nsec()
         return NotImplemented
+
+
+# The two numbers as they stand: what a peer sent need not be normalised.
+raw_time = Time._raw
+raw_duration = Duration._raw

@@ -1,4 +1,4 @@
-"""The types that a definition can use without saying where they come from."""
+"""The built-in types of definitions: numbers, strings, times."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ __all__ = ["BUILTINS", "CONSTANT_TYPES", "HEADER_TYPE", "Builtin", "is_builtin"]
 class Builtin:
     """One built-in type.
 
-    ``kind`` is ``int``, ``float``, ``bool``, ``string``, ``time`` or ``duration``;
-    ``code`` the letters of :mod:`struct` for one value (for a string: its length);
-    ``size`` the bytes that one value takes at least; ``low`` and ``high`` the range of
-    an integer; ``octets`` whether arrays of it are :class:`bytes`.
+    ``kind`` is ``int``, ``float``, ``bool``, ``string``, ``time`` or ``duration``.
+    ``code`` holds the letters of :mod:`struct` for one value (for a string: its length),
+    and ``size`` is the number of bytes that one value takes at least. ``low`` and
+    ``high`` are the range of an integer. ``octets`` says whether arrays of the type are
+    :class:`bytes`.
     """
 
     name: str
@@ -48,7 +49,7 @@ BUILTINS: Final[dict[str, Builtin]] = {
         Builtin("float64", "float", "d", 8),
         Builtin("string", "string", "I", 4),
         Builtin("bool", "bool", "?", 1),
-        # Two old names; that one is signed and the other not is how genpy reads them.
+        # Two old names. One is signed and the other is not: genpy reads them so.
         _integer("char", "B", 8, signed=False, octets=True),
         _integer("byte", "b", 8, signed=True),
         Builtin("time", "time", "II", 8),

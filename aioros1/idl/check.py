@@ -1,10 +1,10 @@
-"""Which value does not fit its field: the slow walk after an encoder has failed.
+"""Finds the value that does not fit its field, after an encoder has failed.
 
-It makes a clean copy as it goes. An encoder may fail for a value that is fine but of an
-unusual kind; the copy then holds a usual one, and is encoded in its place.
+The walk makes a clean copy as it goes. An encoder may fail for a value that is fine but of
+an unusual class; the copy then holds one of the usual class, and is encoded instead.
 
-Values come from applications and may be of any class: whatever exception they raise when
-they are looked at, it means that they do not fit.
+Values come from applications and may be of any class. If one raises an exception when it
+is looked at, whichever it is, then the value does not fit.
 """
 
 from __future__ import annotations
@@ -12,15 +12,13 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 from aioros1.errors import SerializationError
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS, Builtin
 from aioros1.idl.spec import Field
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
+from aioros1.idl.structure import Structure
 
 __all__ = ["describe", "normalise"]
 
@@ -33,11 +31,11 @@ _CONVERT: dict[str, Callable[[Any], Any]] = {
 
 
 def describe(value: Any) -> str:
-    """A value as it appears in an error: short, whatever it is."""
+    """A value as it is shown in an error: short, and never an exception."""
     try:
         return _describe(value)
     except Exception:
-        # Of integers, too, not all can be printed.
+        # Not even all integers can be printed.
         return f"a value of type {type(value).__name__}"
 
 
@@ -55,8 +53,8 @@ def _describe(value: Any) -> str:
     return text if len(text) <= 80 else f"{text[:77]}..."
 
 
-def normalise(cls: type[Message], message: Any) -> Message:
-    """A copy of the message with a usual value in each field.
+def normalise(cls: type[Structure], message: Any) -> Structure:
+    """A copy of the message in which each field has a value of the usual class.
 
     Raises :class:`SerializationError` with the path of the first field whose value is
     missing or does not fit.
@@ -69,8 +67,8 @@ def _wrong(path: str, expected: str, value: Any, why: str = "") -> NoReturn:
     raise SerializationError(f"{path}: expected {expected}, got {describe(value)}{reason}")
 
 
-def _message(cls: type[Message], message: Any, path: str) -> Message:
-    result: Message = object.__new__(cls)
+def _message(cls: type[Structure], message: Any, path: str) -> Structure:
+    result: Structure = object.__new__(cls)
     for field in cls._fields:
         place = f"{path}.{field.name}" if path else field.name
         try:
@@ -94,7 +92,7 @@ def _message(cls: type[Message], message: Any, path: str) -> Message:
     return result
 
 
-def _field(cls: type[Message], field: Field, value: Any, path: str) -> Any:
+def _field(cls: type[Structure], field: Field, value: Any, path: str) -> Any:
     builtin = BUILTINS.get(field.base_type)
     if not field.is_array:
         if builtin is not None:
@@ -130,7 +128,7 @@ def _numbers(builtin: Builtin, field: Field, value: Any, path: str) -> Any:
         _wrong(path, field.type, value, str(exc))
     if builtin.octets:
         return bytes(result)
-    # Wire-ready by now, and little-endian; the encoder swaps native arrays only.
+    # The bytes are little-endian by now, but the encoder expects a native array.
     return values.load_array(builtin.code, memoryview(result).tobytes())
 
 
@@ -160,6 +158,6 @@ def _scalar(builtin: Builtin, value: Any, path: str) -> Any:
         _wrong(path, builtin.name, value, why)
     if builtin.kind in ("time", "duration"):
         low, high = (0, 0xFFFFFFFF) if builtin.kind == "time" else (-(1 << 31), (1 << 31) - 1)
-        if not (low <= result._secs <= high and low <= result._nsecs <= high):
+        if not (low <= result.secs <= high and low <= result.nsecs <= high):
             _wrong(path, builtin.name, value, "out of the range of the wire")
     return result

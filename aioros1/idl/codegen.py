@@ -1,6 +1,6 @@
-"""The source generator: a message class in, an encoder of straight-line Python out.
+"""Writes encoders: straight-line Python made from a message class.
 
-A type's own fields and those of the messages inside it are flattened. All neighbours of
+The fields of a type and those of the messages inside it are flattened. Neighbours of
 fixed size share one :class:`struct.Struct` (a *run*), which ends with the length of the
 string or array behind it::
 
@@ -17,9 +17,8 @@ string or array behind it::
         except Exception as exc:
             return slow(m0, exc)
 
-The generator never checks values itself beyond what packing does for nothing; after a
-failure :mod:`.check` finds out which field is to blame. :mod:`.codegen_decode` has the
-other direction.
+Encoders do not check values, beyond what packing checks anyway. After a failure
+:mod:`.check` finds the field that is to blame. :mod:`.codegen_decode` writes decoders.
 """
 
 from __future__ import annotations
@@ -29,15 +28,13 @@ from array import array
 from collections.abc import Callable
 from functools import partial
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.spec import Field
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
 
 __all__ = ["Source", "encoder_source", "make_encoder"]
 
@@ -48,7 +45,7 @@ _TIME_HELPERS = {
 
 
 class Source:
-    """Lines of a function being written, and the globals it will need."""
+    """The lines of a function that is being written, and the globals it will need."""
 
     def __init__(self, function: str, parameters: str) -> None:
         self.lines: list[str] = [f"def {function}({parameters}):"]
@@ -68,26 +65,27 @@ class Source:
         self.lines.append("    " * self.depth + text)
 
     def fresh(self, prefix: str) -> str:
-        """A local name that nothing else uses."""
+        """A local name that is not used yet."""
         self._count += 1
         return f"{prefix}{self._count}"
 
     def bind(self, prefix: str, value: Any, key: Any) -> str:
-        """The global name for an object; the same for the same key."""
+        """The global name of an object; the same name for the same key."""
         if key not in self._bound:
             self._bound[key] = name = self.fresh(prefix)
             self.globals[name] = value
         return self._bound[key]
 
     def new(self, cls: type) -> str:
-        """The expression for an instance of a class that is made without its constructor.
+        """The expression that makes an instance of a class without its constructor.
 
-        A partial object is quicker than the same call written out, by a tenth to a fifth.
+        Calling a partial object is quicker than the same call written out, by a tenth to
+        a fifth.
         """
         return self.bind("new", partial(object.__new__, cls), ("new", cls)) + "()"
 
     def use(self, name: str) -> str:
-        """The name of a function of :mod:`.values`."""
+        """Make a function of :mod:`.values` known to the code; gives its name."""
         self.globals[name] = getattr(values, name)
         return name
 
@@ -103,15 +101,15 @@ class Source:
 
 
 def attribute(owner: str, name: str) -> str:
-    """The expression that reads a field, whose name may be a keyword of Python."""
+    """The expression that reads a field; its name may be a keyword of Python."""
     return f"getattr({owner}, {name!r})" if iskeyword(name) else f"{owner}.{name}"
 
 
 class _Encoder:
     """Walks a class and writes the body of its encoder.
 
-    ``parts`` are the expressions that give the octets, in order; ``constant`` and
-    ``sizes`` add up to the length; ``codes`` and ``arguments`` are the run at hand.
+    ``parts`` are the expressions for the bytes, in order. ``constant`` and ``sizes`` add
+    up to the length. ``codes`` and ``arguments`` are the current run.
     """
 
     def __init__(self, out: Source, *, escape: bool) -> None:
@@ -140,14 +138,14 @@ class _Encoder:
         self.codes, self.arguments = [], []
 
     def payload(self, name: str, size: str) -> None:
-        """Octets of a length that is not known beforehand."""
+        """Add bytes whose length is not known beforehand."""
         self.flush()
         self.parts.append(name)
         self.sizes.append(size)
 
     # -- fields -----------------------------------------------------------------------
 
-    def message(self, cls: type[Message], name: str) -> None:
+    def message(self, cls: type[Structure], name: str) -> None:
         """All fields of the message in the local variable ``name``."""
         for field in cls._fields:
             value = attribute(name, field.name)
@@ -203,7 +201,7 @@ class _Encoder:
             )
             self.put(builtin.code, f"{name}._secs", f"{name}._nsecs")
 
-    def array(self, cls: type[Message], field: Field, value: str) -> None:
+    def array(self, cls: type[Structure], field: Field, value: str) -> None:
         name = self.local("v", value)
         builtin = BUILTINS.get(field.base_type)
         if builtin is None:
@@ -246,19 +244,19 @@ class _Encoder:
         self.octets(field, name, len_name=name, item_size=size)
 
     def octets(self, field: Field, name: str, *, len_name: str, item_size: int) -> None:
-        """An array in a buffer: behind its count, or of a fixed size within the run."""
+        """An array that is in a buffer: behind its count, or within the run if it is fixed."""
         if field.array_len is None:
             count = self.local("n", f"len({len_name})")
             self.put("I", count)
             self.payload(name, count if item_size == 1 else f"{item_size} * {count}")
             return
         self.out.line(f"if len({len_name}) != {field.array_len}: raise ValueError")
-        # struct wants bytes; as part of the run they cost no part of their own.
+        # struct wants bytes. Within the run they need no part of their own.
         as_bytes = f"{name}.tobytes()" if item_size > 1 else f"bytes({name})"
         self.put(f"{field.array_len * item_size}s", as_bytes)
 
     def blob(self, field: Field, items: str, octets: str, item_size: int | None) -> None:
-        """An array whose elements are packed already, in ``octets``."""
+        """An array whose elements are packed already; ``octets`` names their bytes."""
         if field.array_len is None:
             self.put("I", f"len({items})")
         else:
@@ -268,8 +266,8 @@ class _Encoder:
                 return
         self.payload(octets, f"len({octets})")
 
-    def messages(self, nested: type[Message], field: Field, items: str) -> None:
-        """An array of messages: a loop, the results of which are joined."""
+    def messages(self, nested: type[Structure], field: Field, items: str) -> None:
+        """An array of messages: a loop whose results are joined."""
         element = self.out.fresh("e")
         inner = _Encoder(self.out, escape=self.escape)
         packed = self.out.fresh("l")
@@ -282,7 +280,7 @@ class _Encoder:
         del self.out.lines[mark:]
         octets = self.out.fresh("o")
         if not body and len(inner.parts) == 1:
-            # Fields of fixed size only, all in the element itself: no statement needed.
+            # Only fields of fixed size, all in the element itself: an expression is enough.
             self.out.line(f"{octets} = join([{inner.parts[0]} for {element} in {items}])")
         else:
             if not nested._fields:
@@ -305,12 +303,12 @@ class _Encoder:
 
 
 def encoder_source(
-    cls: type[Message], *, frame: bool = False, split: bool = False, escape: bool = False
+    cls: type[Structure], *, frame: bool = False, split: bool = False, escape: bool = False
 ) -> Source:
     """The source of an encoder.
 
-    ``frame`` puts the length in front; ``split`` returns parts rather than one bytes;
-    ``escape`` is for strings with surrogates, and is not tried again on failure.
+    ``frame`` puts the length in front. ``split`` returns parts instead of one bytes
+    object. ``escape`` is for strings with surrogates; if that fails, nothing else is tried.
     """
     out = Source("encode", "m0")
     encoder = _Encoder(out, escape=escape)
@@ -322,7 +320,7 @@ def encoder_source(
     encoder.message(cls, "m0")
     encoder.flush()
     if frame:
-        # Not a chain of additions, which the compiler takes for as many levels.
+        # A long chain of additions is nested too deep for the compiler.
         sizes = encoder.sizes
         total = " + ".join(sizes) if len(sizes) <= 50 else f"sum(({', '.join(sizes)}))"
         out.line(f"total = {encoder.constant - 4}" + (f" + {total}" if total else ""))
@@ -336,7 +334,7 @@ def encoder_source(
     elif len(encoder.parts) == 1:
         out.line(f"return {encoder.parts[0]}")
     elif len(encoder.parts) == 2 and encoder.parts[1].startswith("s"):
-        # A string is bytes by now: quicker than join, by a third for a std_msgs/String.
+        # The string is bytes by now. This is quicker than join: for std_msgs/String by a third.
         out.line(f"return {encoder.parts[0]} + {encoder.parts[1]}")
     else:
         out.line(f"return join(({', '.join(encoder.parts)}))")
@@ -349,15 +347,15 @@ def encoder_source(
 
 
 def make_encoder(
-    cls: type[Message],
+    cls: type[Structure],
     slow: Callable[[Any, Exception], Any] | None = None,
     *,
     frame: bool = False,
     split: bool = False,
 ) -> Callable[[Any], Any]:
-    """Compile an encoder; ``slow`` is called when it fails, and gives its result.
+    """Compile an encoder; when it fails, it returns what ``slow`` returns.
 
-    Without ``slow`` it is the one that takes strings with surrogates and just raises.
+    Without ``slow`` you get the encoder that takes strings with surrogates; it raises.
     """
     source = encoder_source(cls, frame=frame, split=split, escape=slow is None)
     source.globals["slow"] = slow

@@ -1,4 +1,4 @@
-"""The source generator for decoders; :mod:`.codegen` describes the common ground.
+"""Writes decoders; :mod:`.codegen` explains what encoders and decoders share.
 
 ::
 
@@ -17,45 +17,46 @@
             return m1
         except UnicodeDecodeError: ...
 
-Reading on past ``end`` meets only memory that is there (slices stop at its end, struct
-raises), so one comparison at the end would do. But behind ``end`` there may be many other
-messages, and a peer could have them copied for each of its own: so each length is compared
-before it is believed, unless the message is alone in ``data``.
+A decoder cannot read outside of ``data``: slices stop at its end, and struct raises. So one
+comparison at the very end would do. But behind ``end`` there may be many other messages,
+and a peer could have them copied with each of its own messages. That is why each length is
+compared with ``end`` before it is used, unless the message is alone in ``data``.
 
-:mod:`.codegen_learned` has a quicker way for what came in the same layout before, and
+:mod:`.codegen_learned` writes a quicker way for messages of a layout that came before, and
 :mod:`.decoders` makes functions of both.
 """
 
 from __future__ import annotations
 
+from itertools import starmap
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.codegen import Source
 from aioros1.idl.spec import Field
-from aioros1.time import Duration, Time
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
+from aioros1.idl.structure import Structure
+from aioros1.time import Duration, Time, raw_duration, raw_time
 
 __all__ = ["MAX_EMPTY", "Decoder", "Mode", "write_decoder"]
 
 MAX_EMPTY = 65536
-"""Messages without any octets that one message may hold in its arrays. Their number is
-not bounded by the size of the frame; nothing in use has any."""
+"""How many messages of zero bytes one message may hold in its arrays. The size of the
+frame does not limit their number; no type in use has any."""
 
 Mode: TypeAlias = Literal["bytes", "escape", "view", "views"]
-"""What ``data`` is and what payloads become: ``bytes`` for a bytes object; ``escape`` the
-same for text that is not UTF-8; ``view`` for a memoryview, copied; ``views`` not copied."""
+"""What ``data`` is, and what becomes of payloads. ``bytes``: a bytes object. ``escape``: the
+same, for text that is not UTF-8. ``view``: a memoryview, whose payloads are copied.
+``views``: a memoryview, whose payloads are not copied."""
 
 
 class Decoder:
     """Walks a class and writes the body of its decoder.
 
-    The next octet to read is at ``base`` (a local variable) plus the size of the run;
-    ``codes`` and ``targets`` are the run at hand, ``after`` what waits for its values.
+    The next byte to read is at ``base`` (a local variable) plus the size of the run.
+    ``codes`` and ``targets`` are the current run; ``after`` holds the lines that need its
+    values.
     """
 
     def __init__(
@@ -65,7 +66,7 @@ class Decoder:
         self.mode: Mode = mode
         self.base = base
         self.alone = alone  # whether `data` ends at `end`
-        self.bounded = ""  # the base that was compared with the end
+        self.bounded = ""  # the base that was compared with `end`
         self.row = row  # an unpacked row to take the run from, in place of `data`
         self.deferred = row is not None  # whether all values come before they are used
         self.codes: list[str] = []
@@ -79,7 +80,7 @@ class Decoder:
         self.targets += targets
 
     def flush(self) -> None:
-        """Read the run and move ``base`` behind it."""
+        """Write what reads the run, and move ``base`` behind it."""
         if not self.codes:
             return
         key, packer = self.out.structure(self.codes)
@@ -102,13 +103,13 @@ class Decoder:
         return name
 
     def behind(self, size: int) -> str:
-        """The place so many octets behind ``base``."""
+        """The position ``size`` bytes behind ``base``."""
         if self.base.isdecimal():
             return str(int(self.base) + size)
         return self.local("i", f"{self.base} + {size}")
 
     def count(self) -> str:
-        """Read a length; it ends the run."""
+        """Write what reads a length, which ends the run."""
         name = self.out.fresh("n")
         self.take("I", name)
         self.flush()
@@ -131,14 +132,14 @@ class Decoder:
         return name
 
     def create(self, owner: str, field: Field, prefix: str, cls: type) -> str:
-        """Make an object and put it in its field, before what it holds is known."""
+        """Make an object and put it in its field; its own fields are filled in later."""
         name = self.local(prefix, self.out.new(cls))
         self.store(owner, field, name)
         return name
 
     # -- fields -----------------------------------------------------------------------
 
-    def message(self, cls: type[Message], owner: str) -> None:
+    def message(self, cls: type[Structure], owner: str) -> None:
         for field in cls._fields:
             if field.is_array:
                 self.array(cls, field, owner)
@@ -161,7 +162,7 @@ class Decoder:
             self.take(builtin.code, f"{name}._secs", f"{name}._nsecs")
 
     def extent(self, item_size: int) -> tuple[str, str]:
-        """Read a count and step over what it counts; gives its start and stop."""
+        """Read a count and step over that many items; gives their start and stop."""
         count = self.count()
         start = self.base
         times = count if item_size == 1 else f"{item_size} * {count}"
@@ -189,10 +190,10 @@ class Decoder:
             return f"{octets}.cast({code!r})"
         return f"array({code!r}, {octets})"
 
-    def array(self, cls: type[Message], field: Field, owner: str) -> None:
+    def array(self, cls: type[Structure], field: Field, owner: str) -> None:
         builtin = BUILTINS.get(field.base_type)
         if field.array_len == 0 and (builtin is None or builtin.kind == "string"):
-            # Of a fixed size even if its elements are not, so that it can be in a row.
+            # It has a fixed size even if its elements have none, and so can be in a row.
             self.store(owner, field, "[]")
         elif builtin is None:
             self.messages(cls._nested[field.base_type], field, owner)
@@ -205,7 +206,7 @@ class Decoder:
             if builtin.octets:
                 self.store(owner, field, self.octets(start, stop))
             elif self.mode == "view" and values.LITTLE:
-                # One copy: array(code, memoryview) would take the octets for numbers.
+                # array(code, memoryview) would take each byte for a number.
                 name = self.local("a", f"array({builtin.code!r})")
                 self.out.line(f"{name}.frombytes(data[{start}:{stop}])")
                 self.store(owner, field, name)
@@ -219,19 +220,20 @@ class Decoder:
         """A list of booleans or times."""
         if kind == "bool":
             return f"list(map(bool, {octets}))"
-        raw = self.out.fresh("raw")
         codes = ["II"] if kind == "time" else ["ii"]
         key, packer = self.out.structure(codes)
         rows = self.out.bind("r", packer.iter_unpack, ("rows", key))
-        self.out.globals["raw_" + kind] = (Time if kind == "time" else Duration)._raw
-        return f"[raw_{kind}(*{raw}) for {raw} in {rows}({octets})]"
+        self.out.globals["raw_" + kind] = raw_time if kind == "time" else raw_duration
+        self.out.globals["starmap"] = starmap
+        # Not a comprehension: each is a scope of its own, and slow to compile.
+        return f"list(starmap(raw_{kind}, {rows}({octets})))"
 
     def fixed(self, field: Field, owner: str, length: int) -> None:
         """A fixed array of a built-in type other than string: part of the run."""
         builtin = BUILTINS[field.base_type]
         size = length * builtin.size
         if self.mode == "views" and builtin.kind in ("int", "float") and self.row is None:
-            # No value to unpack, but a place to point at.
+            # There is no value to unpack, only a place to point at.
             _, before = self.out.structure(self.codes)
             start, stop = before.size, before.size + size
             self.take(f"{size}x")
@@ -260,7 +262,7 @@ class Decoder:
             self.after.append(f"{owner}.{field.name} = {value}")
 
     def length(self, field: Field) -> str:
-        """The number of elements of a list, read or known; the run is over then."""
+        """The number of elements of a list, read or fixed; it ends the run."""
         if field.array_len is None:
             return self.count()
         self.flush()
@@ -295,17 +297,17 @@ class Decoder:
         self.store(owner, field, items)
 
     def check_count(self, count: str, item_size: int) -> None:
-        """Refuse a count for which there are not octets enough, before anything is made."""
+        """Refuse a count that the bytes left cannot hold, before anything is made."""
         if item_size:
             self.out.line(f"if {item_size} * {count} > end - {self.base}: raise ValueError")
         else:
             self.out.line(f"empty += {count}")
             self.out.line(f"if empty > {MAX_EMPTY}: raise ValueError")
 
-    def messages(self, nested: type[Message], field: Field, owner: str) -> None:
+    def messages(self, nested: type[Structure], field: Field, owner: str) -> None:
         size = nested._fixed_size
         if size and self.row is not None:
-            # Inside a row: the octets of these elements are one value of it.
+            # Inside a row the bytes of these elements are one of its values.
             octets = self.out.fresh("x")
             assert field.array_len is not None
             self.take(f"{size * field.array_len}s", octets)
@@ -321,16 +323,16 @@ class Decoder:
             count = self.length(field) if self.row is None else str(field.array_len)
             weight = nested._hollow + 1
             self.check_count(count if weight == 1 else f"{weight} * {count}", 0)
-            self.out.line("# nothing on the wire, and nothing in them that could differ")
+            self.out.line("# no bytes on the wire, and no values that could differ")
             self.store(owner, field, f"[{self.empty(nested)} for _ in range({count})]")
         else:
             self.varying(nested, field, owner)
 
-    def empty(self, nested: type[Message]) -> str:
+    def empty(self, nested: type[Structure]) -> str:
         return f"{self.out.bind('C', nested, nested)}()"
 
-    def rows(self, nested: type[Message], field: Field, owner: str, octets: str) -> None:
-        """Elements of one fixed size: unpacked row by row."""
+    def rows(self, nested: type[Structure], field: Field, owner: str, octets: str) -> None:
+        """Elements of one fixed size, which are unpacked row by row."""
         items = self.out.fresh("l")
         row = self.out.fresh("r")
         element = self.out.fresh("e")
@@ -359,13 +361,13 @@ class Decoder:
             self.out.lines += body
             self.store(owner, field, items)
         else:
-            # The octets are known only once the row around them is unpacked.
+            # The bytes are known only when the row around them is unpacked.
             self.after += head
             self.after += [text.removeprefix(pad) for text in body]
             self.assign_after(owner, field, items)
 
-    def varying(self, nested: type[Message], field: Field, owner: str) -> None:
-        """Elements of any size: one after the other."""
+    def varying(self, nested: type[Structure], field: Field, owner: str) -> None:
+        """Elements of any size, which are read one after the other."""
         count = self.length(field)
         self.check_count(count, nested._min_size)
         items = self.local("l", "[]")
@@ -384,11 +386,11 @@ class Decoder:
         self.store(owner, field, items)
 
 
-def write_decoder(out: Source, cls: type[Message], mode: Mode, base: str, *, exact: bool) -> str:
-    """Write the body of a decoder to ``out``; gives the name of what it has made.
+def write_decoder(out: Source, cls: type[Structure], mode: Mode, base: str, *, exact: bool) -> str:
+    """Write the body of a decoder to ``out``; gives the name of the message it makes.
 
-    ``base`` is where the message begins; ``exact`` is for one that is all there is in
-    ``data``, and refuses octets that are left over.
+    The message begins at ``base``. With ``exact`` it has to be all of ``data``, and bytes
+    that are left over are refused.
     """
     mark = len(out.lines)
     decoder = Decoder(out, mode, base, alone=exact)

@@ -1,4 +1,4 @@
-"""The source generator for what precedes a decoder: the way for a layout seen before.
+"""Writes the quick way of a decoder, for messages of a layout that came before.
 
 ::
 
@@ -16,16 +16,15 @@
         except (Differs, ValueError, struct_error):
             layout = mistaken(end - pos)
 
-Against the usual way, that saves a call and a slice for each string and array: a sixth of
-the time for a geometry_msgs/TransformStamped, a third for a sensor_msgs/JointState. Every
-length is compared with the one assumed before anything is made of the octets behind it,
-and the lengths of a layout add up to the size of the message.
+It saves a call and a slice for each string and array: a sixth of the time for a
+geometry_msgs/TransformStamped, a third for a sensor_msgs/JointState. Every length is
+compared with the assumed one before the bytes behind it are used, and the lengths of a
+layout add up to the size of the message.
 """
 
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING
 
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS
@@ -33,21 +32,19 @@ from aioros1.idl.codegen import Source
 from aioros1.idl.codegen_decode import Decoder
 from aioros1.idl.layouts import Differs, Layouts, Loop, Plan, Step, Stretch
 from aioros1.idl.spec import Field
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
+from aioros1.idl.structure import Structure
 
 __all__ = ["write_learned"]
 
 
 class _Unsuitable(Exception):
-    """The type has no layouts to speak of."""
+    """The type has no layouts that are worth learning."""
 
 
 class _LearnedDecoder(Decoder):
-    """Writes a decoder that takes a whole stretch at once, and the plan of its layouts.
+    """Writes a decoder that unpacks a whole stretch at once, and the plan of its layouts.
 
-    ``names`` are the variables that the values of the layout go to, in their order.
+    ``names`` are the variables for the values of a layout, in order.
     """
 
     def __init__(self, out: Source, base: str) -> None:
@@ -58,14 +55,14 @@ class _LearnedDecoder(Decoder):
         self._steps: list[Step] = []
         self._known: list[str] = []
         self._differences: list[str] = []
-        self._first = 0  # of the codes that no step has counted yet
+        self._first = 0  # the first code that no step has counted
 
     # -- stretches --------------------------------------------------------------------
 
     def step(
         self, kind: str, item_size: int = 1, number: int | None = None
     ) -> tuple[str, str | None]:
-        """Enter something of a length to be known: the names of its count and payload."""
+        """Add something whose length a layout knows; gives the names of count and payload."""
         fixed = struct.calcsize("<" + "".join(self.codes[self._first :]))
         self._steps.append(Step(kind, fixed, item_size, number))  # type: ignore[arg-type]
         count = str(number)
@@ -108,7 +105,7 @@ class _LearnedDecoder(Decoder):
         _, payload = self.step("sized")
         self.assign_after(owner, field, f"{payload}.decode()")
 
-    def array(self, cls: type[Message], field: Field, owner: str) -> None:
+    def array(self, cls: type[Structure], field: Field, owner: str) -> None:
         builtin = BUILTINS.get(field.base_type)
         if builtin is None or builtin.kind == "string" or field.array_len is not None:
             super().array(cls, field, owner)
@@ -137,10 +134,10 @@ class _LearnedDecoder(Decoder):
         ]
         self.assign_after(owner, field, items)
 
-    def messages(self, nested: type[Message], field: Field, owner: str) -> None:
+    def messages(self, nested: type[Structure], field: Field, owner: str) -> None:
         size = nested._fixed_size
         if size == 0 or nested._hollow:
-            raise _Unsuitable  # what has no octets is counted, which is not done here
+            raise _Unsuitable  # messages of zero bytes have to be counted
         if size is None:
             self.varying(nested, field, owner)
             return
@@ -152,7 +149,7 @@ class _LearnedDecoder(Decoder):
             self.take(f"{size * field.array_len}s", octets)
         self.rows(nested, field, owner, octets)
 
-    def varying(self, nested: type[Message], field: Field, owner: str) -> None:
+    def varying(self, nested: type[Structure], field: Field, owner: str) -> None:
         if field.array_len is None:
             self.step("count")
         self.flush()
@@ -179,7 +176,7 @@ class _LearnedDecoder(Decoder):
 
 
 def _is_worth_it(plan: Plan) -> bool:
-    """Whether the usual way has more to do than read one run, or one length and its octets."""
+    """Whether the usual way does more than read one run, or one length and its bytes."""
     reads = 0
     for part in plan:
         if isinstance(part, Loop):
@@ -188,10 +185,10 @@ def _is_worth_it(plan: Plan) -> bool:
     return reads > 1
 
 
-def write_learned(out: Source, cls: type[Message], base: str) -> bool:
-    """Write the quick way in front of a decoder; whether there is one for this type.
+def write_learned(out: Source, cls: type[Structure], base: str) -> bool:
+    """Write the quick way in front of a decoder; says whether this type has one.
 
-    It leaves ``layout`` for the usual way: None where that should call ``learn`` in the end.
+    It leaves ``layout`` to the usual way, which calls ``learn`` in the end if that is None.
     """
     mark, depth = len(out.lines), out.depth
     out.depth += 2

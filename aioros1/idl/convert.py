@@ -1,4 +1,4 @@
-"""Messages to and from other forms: dicts, other classes of the same type, NumPy."""
+"""Converts messages to and from dicts, other classes of the same type, and NumPy arrays."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from aioros1.errors import SerializationError
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS, Builtin
 from aioros1.idl.check import describe
-from aioros1.idl.message import Message
 from aioros1.idl.spec import Field
-from aioros1.time import Duration, Time
+from aioros1.idl.structure import Structure
+from aioros1.time import Duration, Time, raw_duration, raw_time
 
 __all__ = ["arrays_to_numpy", "convert", "from_dict", "to_dict", "values_equal"]
 
-_M = TypeVar("_M", bound=Message)
+_M = TypeVar("_M", bound=Structure)
 
 _SECONDS: dict[str, type[Time] | type[Duration]] = {"time": Time, "duration": Duration}
 
 
 def convert(cls: type[_M], value: Any) -> Any:
-    """What can be encoded as ``cls``: an instance of it, or one that looks the same.
+    """Make of a value what can be encoded as ``cls``.
 
-    An instance is returned as it is, and so is one of another class with the same MD5
-    sum: genpy's, or one from another store. A mapping is read by
-    :meth:`Message.from_dict`. Raises :class:`SerializationError` for anything else.
+    An instance of ``cls`` is returned as it is, and so is one of another class with the
+    same MD5 sum, such as genpy's. A mapping is read as :meth:`Message.from_dict` does.
+    Raises :class:`SerializationError` for anything else.
     """
     kind = value.__class__
     if kind is cls or getattr(kind, "_md5sum", None) == cls._md5sum:
@@ -71,7 +71,7 @@ def _plain_field(value: Any, type_: str, json: bool) -> Any:
             octets = bytes(values.as_octets(value))
             return b64encode(octets).decode() if json else octets
         if builtin is not None and builtin.kind in ("int", "float"):
-            # Buffers of the other byte order have no tolist() that works, or none at all.
+            # Buffers of the other byte order have no tolist(), or one that fails.
             if not isinstance(value, (list, tuple)):
                 wire = memoryview(values.as_numbers(builtin.code)(value))
                 numbers = values.load_array(builtin.code, wire.tobytes()).tolist()
@@ -80,13 +80,13 @@ def _plain_field(value: Any, type_: str, json: bool) -> Any:
         else:
             value = values.as_list(value)
     except Exception:
-        # Left as it is: what does not fit is found, and named, by the encoder.
+        # Left as it is: the encoder finds and names what does not fit.
         return value
     return [_plain(item, builtin, json) for item in value]
 
 
 def _plain(value: Any, builtin: Builtin | None, json: bool) -> Any:
-    """One value, as one of Python's own classes: of subclasses, YAML knows nothing."""
+    """One value as an instance of a built-in class: YAML does not know subclasses."""
     kind = type(value)
     if kind is float:
         return _float_to_json(value) if json else value
@@ -107,7 +107,7 @@ def _plain(value: Any, builtin: Builtin | None, json: bool) -> Any:
     return _plain(float(value), builtin, json) if hasattr(kind, "__float__") else value
 
 
-# JSON has no such numbers; the names are those that protobuf gives them, too.
+# JSON has no such numbers; protobuf gives them the same names.
 _NON_FINITE = {"NaN": nan, "Infinity": inf, "-Infinity": -inf}
 _NAN_BITS = re.compile(r"NaN:([0-9a-f]{16})\Z")
 _USUAL_NAN = struct.pack(">d", nan)
@@ -150,7 +150,7 @@ def from_dict(cls: type[_M], source: Mapping[str, Any], path: str = "") -> _M:
     return cls(**changes)
 
 
-def _from_plain(cls: type[Message], field: Field, value: Any, path: str) -> Any:
+def _from_plain(cls: type[Structure], field: Field, value: Any, path: str) -> Any:
     if not field.is_array:
         return _item(cls, field, value, path)
     builtin = BUILTINS.get(field.base_type)
@@ -160,7 +160,7 @@ def _from_plain(cls: type[Message], field: Field, value: Any, path: str) -> Any:
         except ValueError as exc:
             _wrong(path, f"{field.type} in base64", value, f" ({exc})")
     if builtin is not None and builtin.kind in ("int", "float"):
-        # A buffer stays what it is: it is looked at where it is encoded.
+        # A buffer stays as it is: the encoder checks it.
         return _numbers(cls, field, value, path) if isinstance(value, (list, tuple)) else value
     try:
         items = values.as_list(value)
@@ -170,7 +170,7 @@ def _from_plain(cls: type[Message], field: Field, value: Any, path: str) -> Any:
 
 
 def _numbers(
-    cls: type[Message], field: Field, items: Sequence[Any], path: str
+    cls: type[Structure], field: Field, items: Sequence[Any], path: str
 ) -> bytes | array[Any]:
     builtin = BUILTINS[field.base_type]
 
@@ -181,7 +181,7 @@ def _numbers(
         try:
             return numbers(items)
         except Exception:
-            # Strings among the numbers of JSON, or an error that wants its place.
+            # There are strings for numbers, as in JSON, or there is an error to locate.
             pass
     items = [_item(cls, field, item, f"{path}[{i}]") for i, item in enumerate(items)]
     for index, item in enumerate(items):
@@ -192,7 +192,7 @@ def _numbers(
     return numbers(items)
 
 
-def _item(cls: type[Message], field: Field, value: Any, path: str) -> Any:
+def _item(cls: type[Structure], field: Field, value: Any, path: str) -> Any:
     builtin = BUILTINS.get(field.base_type)
     if builtin is None:
         if isinstance(value, Mapping):
@@ -209,9 +209,10 @@ def _item(cls: type[Message], field: Field, value: Any, path: str) -> Any:
         if isinstance(value, Mapping):
             if not value.keys() <= {"secs", "nsecs"}:
                 raise ValueError
-            # As it stands: what a peer sent may not be normalised.
+            # As they stand: what a peer sent need not be normalized.
             secs, nsecs = value.get("secs", 0), value.get("nsecs", 0)
-            return kind._raw(secs.__index__(), nsecs.__index__())
+            raw = raw_time if kind is Time else raw_duration
+            return raw(secs.__index__(), nsecs.__index__())
         if isinstance(value, (int, float)):
             return kind(value)
     except (AttributeError, LookupError, ValueError, OverflowError):
@@ -220,10 +221,9 @@ def _item(cls: type[Message], field: Field, value: Any, path: str) -> Any:
 
 
 def _yaml_nan() -> Any:
-    """What PyYAML makes of ``.nan``: one object, whose sign is set by how it is computed.
+    """What PyYAML makes of ``.nan``: always the same object, with a sign by accident.
 
-    It stands for the NaN that was written, which is the usual one. Where there is no
-    PyYAML this is some object that nobody has.
+    It stands for the usual NaN. Without PyYAML this is an object that nobody else has.
     """
     constructor = getattr(sys.modules.get("yaml.constructor"), "SafeConstructor", None)
     return getattr(constructor, "nan_value", _NO_PYYAML)
@@ -240,7 +240,7 @@ def _wrong(path: str, expected: str, value: Any, why: str = "") -> NoReturn:
 
 
 def values_equal(a: Any, b: Any) -> bool:
-    """Whether two values of a field are the same, whatever kinds of sequence they are."""
+    """Whether two values of a field are equal; sequences may be of different classes."""
     if a is b:
         return True
     if type(a) is type(b) and not hasattr(a, "__array__"):
@@ -250,7 +250,7 @@ def values_equal(a: Any, b: Any) -> bool:
     if isinstance(a, (str, int, float)) or isinstance(b, (str, int, float)):
         return bool(a == b)
     if hasattr(a, "nsecs") and hasattr(b, "nsecs"):
-        # genpy's times; a Time is no Duration, whoever made them.
+        # Times may be genpy's; a time never equals a duration.
         return (a.secs, a.nsecs) == (b.secs, b.nsecs) and _is_time(a) == _is_time(b)
     if _is_sequence(a) and _is_sequence(b):
         first, second = _sequence(a), _sequence(b)
@@ -281,7 +281,7 @@ def _sequence(value: Any) -> Any:
     try:
         return view.tolist()
     except NotImplementedError:
-        # The formats of ctypes and of the other byte order.
+        # Formats of ctypes and of the other byte order are not implemented there.
         return struct.unpack(f"{view.format[0]}{len(view)}{view.format[1:]}", view.tobytes())
 
 
@@ -289,7 +289,7 @@ def _sequence(value: Any) -> Any:
 
 
 def arrays_to_numpy(message: Any, numpy: Any) -> None:
-    """Put NumPy arrays in place of the arrays of numbers, in nested messages too."""
+    """Replace arrays of numbers by NumPy arrays, in nested messages too."""
     for field in message._fields:
         value = getattr(message, field.name)
         builtin = BUILTINS.get(field.base_type)

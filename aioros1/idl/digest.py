@@ -1,6 +1,6 @@
-"""MD5 sums and full texts of definitions, as gendeps makes them.
+"""MD5 sums and full texts of definitions, as genmsg makes them.
 
-``lookup`` is in all of these a function from ``pkg/Type`` to the spec of a message.
+In all of these ``lookup`` is a function that takes ``pkg/Type`` and gives its spec.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ _RULE = "=" * 80
 
 
 def md5_text(spec: MessageSpec, lookup: Lookup, known: dict[str, str] | None = None) -> str:
-    """The text that the MD5 sum of a message is made of.
+    """The text whose hash is the MD5 sum of a message.
 
-    Constants first, then the fields; types of messages are replaced by their MD5 sums.
-    ``known`` (changed in place) remembers the sums of dependencies from call to call.
+    Constants come first, then fields; MD5 sums stand in place of the types of messages.
+    ``known`` keeps the sums of dependencies for the next call; it is changed in place.
     """
     known = {} if known is None else known
     lines = [f"{c.type} {c.name}={c.text}" for c in spec.constants]
@@ -41,7 +41,7 @@ def md5_text(spec: MessageSpec, lookup: Lookup, known: dict[str, str] | None = N
 def md5sum(
     spec: MessageSpec | ServiceSpec, lookup: Lookup, known: dict[str, str] | None = None
 ) -> str:
-    """The MD5 sum that stands for a definition in connection headers."""
+    """The MD5 sum of a definition, as connection headers have it."""
     known = {} if known is None else known
     if isinstance(spec, ServiceSpec):
         return _hash(md5_text(spec.request, lookup, known) + md5_text(spec.response, lookup, known))
@@ -54,7 +54,7 @@ def _hash(text: str) -> str:
 
 
 def closure(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> list[str]:
-    """All types that the definition needs, each after the first that needs it."""
+    """All types that the definition needs, each behind the first one that needs it."""
     found: dict[str, None] = {}
 
     def visit(message: MessageSpec) -> None:
@@ -64,8 +64,7 @@ def closure(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> list[str]:
                 visit(lookup(name))
 
     if isinstance(spec, ServiceSpec):
-        # genmsg keeps the dependencies of the request under another name than the
-        # service's, but names those of both in the full text of the service.
+        # As in genmsg, the full text of a service has the types of both messages.
         visit(spec.request)
         visit(spec.response)
     else:
@@ -74,17 +73,17 @@ def closure(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> list[str]:
 
 
 def full_text(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> str:
-    """The definition's text with those of all types it needs: ``message_definition``."""
+    """The text of a definition and of all types it needs, as in ``message_definition``."""
     parts = [spec.text]
     parts += [f"{_RULE}\nMSG: {name}\n{lookup(name).text}" for name in closure(spec, lookup)]
     return "\n".join(parts)
 
 
 def split_full_text(type: str, text: str) -> dict[str, str]:
-    """The texts that :func:`full_text` put together, by type; ``type`` is the first's name.
+    """The texts that :func:`full_text` has joined, by type; ``type`` is the type of the first.
 
-    Lenient in what it takes, as the texts come from all kinds of programs: a rule is any
-    line of equals signs before a line ``MSG: pkg/Type``.
+    The texts come from all kinds of programs, so this is lenient: any line of equals signs
+    that is followed by a line ``MSG: pkg/Type`` separates two texts.
     """
     lines = text.split("\n")
     texts: dict[str, str] = {}

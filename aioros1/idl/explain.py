@@ -1,18 +1,16 @@
-"""Why octets are not a message: the slow reader that runs after a decoder has failed."""
+"""Finds out why bytes are not a message, after a decoder has failed."""
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from aioros1.errors import DeserializationError
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.codegen_decode import MAX_EMPTY
 from aioros1.idl.spec import Field
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
+from aioros1.idl.structure import Structure
 
 __all__ = ["explainer"]
 
@@ -20,9 +18,9 @@ _length = struct.Struct("<I").unpack_from
 
 
 class _Reader:
-    """Steps over the fields of a message, making nothing, until one does not fit."""
+    """Steps over the fields of a message, and makes nothing, until one does not fit."""
 
-    def __init__(self, cls: type[Message], data: Any, pos: int, end: int) -> None:
+    def __init__(self, cls: type[Structure], data: Any, pos: int, end: int) -> None:
         self.cls = cls
         self.data = data
         self.start = self.pos = pos
@@ -49,11 +47,11 @@ class _Reader:
         if self.empty > MAX_EMPTY:
             raise self.fail(path, f"{count} messages without content, more than accepted")
 
-    def message(self, cls: type[Message], path: str) -> None:
+    def message(self, cls: type[Structure], path: str) -> None:
         for field in cls._fields:
             self.field(cls, field, f"{path}.{field.name}" if path else field.name)
 
-    def field(self, cls: type[Message], field: Field, path: str) -> None:
+    def field(self, cls: type[Structure], field: Field, path: str) -> None:
         builtin = BUILTINS.get(field.base_type)
         nested = None if builtin is not None else cls._nested[field.base_type]
         if builtin is not None:
@@ -81,9 +79,9 @@ class _Reader:
 
 
 def explainer(
-    cls: type[Message], *, exact: bool
+    cls: type[Structure], *, exact: bool
 ) -> Callable[[Any, int, int], DeserializationError]:
-    """The function that a decoder of ``cls`` calls to say what was wrong."""
+    """The function that a decoder of ``cls`` calls for the error that it raises."""
 
     def explain(data: Any, pos: int, end: int) -> DeserializationError:
         reader = _Reader(cls, data, pos, end)

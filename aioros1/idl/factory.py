@@ -1,4 +1,4 @@
-"""Specs to classes."""
+"""Makes message classes from specs."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from typing import Any, cast
 from aioros1.errors import MessageSpecError
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.digest import full_text
-from aioros1.idl.message import AnyMessage, Message, MessageType
+from aioros1.idl.message import AnyMessage, Message
 from aioros1.idl.spec import Field, MessageSpec
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
 
 __all__ = ["make_message_class", "specs_of"]
@@ -31,7 +32,7 @@ _ZERO = {
 
 
 class _Unset:
-    """The default of parameters whose real default is made anew for each message."""
+    """Stands for a default that is made anew for each message."""
 
     def __repr__(self) -> str:
         return "<default>"
@@ -49,22 +50,24 @@ def make_message_class(
 ) -> type[AnyMessage]:
     """Make the class of a message type.
 
-    ``nested`` has the classes of the types that its fields are of. Raises
-    :class:`MessageSpecError` for a definition out of all proportion: codecs are as long
-    as the flattened definition, and definitions come from peers, too.
+    ``nested`` has the classes of the message types of its fields, by type. Raises
+    :class:`MessageSpecError` for a definition that is far too large: definitions come from
+    peers too, and a codec is as long as the flattened definition.
     """
     for field in spec.fields:
         if field.array_len is not None and field.array_len >= _MAX_SIZE:
-            raise MessageSpecError(f"{field.name}: an array of over 2 GiB", path=spec.type)
+            raise MessageSpecError(f"{field.name}: an array of 2 GiB or more", path=spec.type)
     leaves = _leaves(spec, nested)
     loops = _loops(spec, nested)
     min_size, fixed = _size(spec, nested)
     if leaves > _MAX_LEAVES:
-        raise MessageSpecError(f"more than {_MAX_LEAVES} fields, all told", path=spec.type)
+        raise MessageSpecError(
+            f"more than {_MAX_LEAVES} fields, nested ones included", path=spec.type
+        )
     if loops > _MAX_LOOPS:
-        raise MessageSpecError(f"arrays nested {_MAX_LOOPS} deep", path=spec.type)
+        raise MessageSpecError(f"arrays nested more than {_MAX_LOOPS} deep", path=spec.type)
     if min_size >= _MAX_SIZE:
-        raise MessageSpecError("a message of over 2 GiB", path=spec.type)
+        raise MessageSpecError("a message of 2 GiB or more", path=spec.type)
 
     slots = tuple(field.name for field in spec.fields)
     namespace: dict[str, Any] = {
@@ -89,21 +92,21 @@ def make_message_class(
         "__init__": _constructor(spec, nested),
     }
     for constant in spec.constants:
-        # Not one that a field shadows, nor one that would break the class: names of
-        # constants are not checked by genmsg at all.
+        # genmsg does not check the names of constants at all. Leave out those that are
+        # hidden by a field, and those that would break the class.
         name = constant.name
         taken = name in slots or name.startswith("_") or hasattr(Message, name)
         if name.isidentifier() and not taken:
             namespace[name] = constant.value
-    made: Any = MessageType(spec.type.partition("/")[2], (Message,), namespace)
+    made: Any = type(spec.type.partition("/")[2], (Message,), namespace)
     return cast("type[AnyMessage]", made)
 
 
 class _FullText:
-    """``_full_text``, put together when it is asked for.
+    """``_full_text``, which is put together when it is first read.
 
-    A definition from a peer can have hundreds of types, and the texts of all types that
-    are inside are in the text of each.
+    A definition from a peer may have hundreds of types, and the full text of each holds
+    the texts of all types inside it.
     """
 
     def __set_name__(self, owner: type[Message], name: str) -> None:
@@ -115,8 +118,8 @@ class _FullText:
         return text
 
 
-def specs_of(classes: Iterable[type[Message]]) -> dict[str, MessageSpec]:
-    """The specs of the classes and of all that is inside them, by type."""
+def specs_of(classes: Iterable[type[Structure]]) -> dict[str, MessageSpec]:
+    """The specs of the classes and of all classes inside them, by type."""
     found: dict[str, MessageSpec] = {}
     waiting = list(classes)
     while waiting:
@@ -128,12 +131,12 @@ def specs_of(classes: Iterable[type[Message]]) -> dict[str, MessageSpec]:
 
 
 def _leaves(spec: MessageSpec, nested: Mapping[str, Any]) -> int:
-    """How many fields the definition has, all told: the length of its codecs."""
+    """How many fields there are, nested ones included: the length of the codecs."""
     return sum(1 if f.is_builtin else 1 + nested[f.base_type]._leaves for f in spec.fields)
 
 
 def _loops(spec: MessageSpec, nested: Mapping[str, Any]) -> int:
-    """How deep arrays of messages hold such arrays; Python nests 20 blocks at most."""
+    """How deep arrays of messages are nested; Python allows for 20 nested blocks."""
     return max(
         (nested[f.base_type]._loops + f.is_array for f in spec.fields if not f.is_builtin),
         default=0,
@@ -141,7 +144,7 @@ def _loops(spec: MessageSpec, nested: Mapping[str, Any]) -> int:
 
 
 def _size(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> tuple[int, bool]:
-    """The smallest size on the wire, and whether it is the only one."""
+    """The smallest size on the wire in bytes, and whether it is the only one."""
     total, fixed = 0, True
     for field in spec.fields:
         builtin = BUILTINS.get(field.base_type)
@@ -161,7 +164,7 @@ def _size(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> tuple[int, 
 
 
 def _hollow(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> int:
-    """How many messages of no size there are in the fixed arrays of a message."""
+    """How many messages of zero bytes the fixed arrays of a message hold."""
     total = 0
     for field in spec.fields:
         cls = nested.get(field.base_type)
@@ -186,10 +189,10 @@ def _has_bulk(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> bool:
 
 
 def _constructor(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> Callable[..., None]:
-    """Write ``__init__``: parameters by name with plain defaults are the quickest there are.
+    """Write ``__init__``; plain parameters with plain defaults are the quickest.
 
-    Names of the generated code begin with an underscore, which those of fields cannot: a
-    field by the name of a builtin would hide it.
+    All other names in the code begin with an underscore, as no field does: a field may
+    have the name of a builtin.
     """
     names: dict[str, Any] = {
         "_unset": _UNSET,
@@ -231,7 +234,7 @@ def _constructor(spec: MessageSpec, nested: Mapping[str, type[Message]]) -> Call
 def _default(
     field: Field, nested: Mapping[str, type[Message]], names: dict[str, Any], number: int
 ) -> tuple[str, str | None]:
-    """An expression for a default that can be shared, or one that makes a fresh one."""
+    """An expression for a default that messages share, or one that makes a new default."""
     builtin = BUILTINS.get(field.base_type)
     constant = f"_d{number}"
     length = field.array_len
@@ -245,7 +248,7 @@ def _default(
         names[f"_C{number}"] = nested[field.base_type]
         return "", "[]" if length is None else f"[_C{number}() for _ in _range({length})]"
     if builtin.octets:
-        # Made where it is used, should it be large; there are classes nobody fills in.
+        # A large default is made when it is used: nobody may ever use it.
         if length is None or length <= 4096:
             names[constant] = bytes(length or 0)
             return constant, None

@@ -1,4 +1,4 @@
-"""``from std_msgs.msg import String``, as code for rospy has it, where there is no ROS."""
+"""Makes ``from std_msgs.msg import String``, as in code for rospy, work without ROS."""
 
 from __future__ import annotations
 
@@ -22,27 +22,26 @@ _KINDS: dict[str, Kind] = {"msg": "msg", "srv": "srv"}
 def install_importer(*, store: MessageStore | None = None, shadow: bool = False) -> None:
     """Make message packages importable by ROS's own names, ``std_msgs.msg`` for one.
 
-    The classes are those of ``store``, by default the very same as in :mod:`aioros1.msg`
-    and :mod:`aioros1.srv`. Modules that exist as files are left alone: of an installed
-    ROS, or of a package of your own. With ``shadow`` the ``msg`` and ``srv`` modules of
-    those are hidden, unless they have been imported already.
+    The classes are those of ``store``; by default they are the same as in
+    :mod:`aioros1.msg` and :mod:`aioros1.srv`. Modules that exist as files, in an installed
+    ROS or in a package of your own, are left alone. With ``shadow`` their ``msg`` and
+    ``srv`` modules are hidden, unless they have been imported already.
 
-    Nothing is searched before it is imported. Installing it once more with the same
-    arguments changes nothing; with others, these count from then on.
+    Nothing is searched before something is imported. If you call this again, the new
+    arguments replace the old ones.
     """
     store = store if store is not None else default_store()
     for finder in sys.meta_path:
         if isinstance(finder, _TypesFinder) and (finder.store, finder.shadow) == (store, shadow):
             return
     uninstall_importer()
-    # A directory with definitions looks like a package without code, and is not to win
-    # against us; packages with code are to win, and what belongs to them.
-    sys.meta_path.insert(0, _TypesFinder(store, shadow))
-    sys.meta_path.append(_PackageFinder(store))
+    # A directory with definitions looks like a package without code, and must not win
+    # against us; packages with code must win, and with them what belongs to them.
+    sys.meta_path[:] = [_TypesFinder(store, shadow), *sys.meta_path, _PackageFinder(store)]
 
 
 def uninstall_importer() -> None:
-    """Undo :func:`install_importer`; what was imported by it has to be imported anew."""
+    """Undo :func:`install_importer`, and forget the modules that were imported by it."""
     sys.meta_path[:] = [
         finder for finder in sys.meta_path if not isinstance(finder, (_TypesFinder, _PackageFinder))
     ]
@@ -101,7 +100,7 @@ class _TypesFinder(DefinitionFinder):
 
 
 def _has_code(fullname: str, path: Sequence[str] | None) -> bool:
-    """Whether others find a module of that name that is more than a directory."""
+    """Whether another finder has a module of that name that is more than a directory."""
     for finder in sys.meta_path:
         if not isinstance(finder, (DefinitionFinder, _PackageFinder)):
             spec = finder.find_spec(fullname, path)
@@ -111,7 +110,7 @@ def _has_code(fullname: str, path: Sequence[str] | None) -> bool:
 
 
 class _PackageLoader(Loader):
-    """Makes ``pkg``, which has nothing but its ``msg`` and ``srv``."""
+    """Makes ``pkg``, which has only ``msg`` and ``srv``."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
         return None
@@ -127,8 +126,8 @@ class _PackageLoader(Loader):
                 except ModuleNotFoundError:
                     pass
             raise AttributeError(
-                f"module {name!r} has no attribute {attribute!r}: of {name} there are only "
-                "message definitions"
+                f"module {name!r} has no attribute {attribute!r}: there are only "
+                f"message definitions of {name}"
             )
 
         module.__dict__["__getattr__"] = get

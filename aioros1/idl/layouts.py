@@ -1,14 +1,17 @@
-"""The layouts of messages that were decoded before: where in the octets everything is.
+"""Layouts of messages that were decoded before: where in the bytes everything is.
 
-Messages of one stream mostly have the same layout: the same names in the same order, the
-same number of joints, only other numbers. Where all lengths are known beforehand, one
-:class:`struct.Struct` reads from one end of the message to the other. A decoder takes the
-lengths of the last message of the same size for granted, compares them with those that it
-then reads, and goes the usual way when they differ.
+Messages of one stream mostly have the same layout: the same names in the same order and
+the same number of joints, only other numbers. If all lengths are known beforehand, one
+:class:`struct.Struct` reads the message from one end to the other. So a decoder assumes
+the lengths of the last message of the same size, compares them with those that it reads,
+and decodes the usual way when they differ.
 
-A :class:`Plan` says which stretches the messages of a type consist of; it is written down
-along with the decoder (:mod:`.codegen_learned`). :class:`Layouts` is what is remembered,
-bounded in number and size, whatever comes.
+A :class:`Plan` says of which stretches the messages of a type consist; it is made along
+with the decoder (:mod:`.codegen_learned`). :class:`Layouts` is what a decoder remembers,
+bounded in number and size.
+
+Threads share the layouts of a decoder. A layout never changes, and is looked up and
+replaced in one step; two threads that learn at the same time at worst learn once more.
 """
 
 from __future__ import annotations
@@ -21,32 +24,32 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 __all__ = ["Differs", "Layout", "Layouts", "Loop", "Plan", "Step", "Stretch"]
 
 MAX_LAYOUTS = 64
-"""Layouts kept for one decoder; each has another size."""
+"""How many layouts a decoder keeps, each for another size of message."""
 MAX_MISTAKES = 8
-"""How often a size may turn out to have another layout before it is given up."""
+"""How many wrong layouts a size may have before it is given up."""
 MAX_PARTS = 256
-"""Elements of arrays of messages in a layout."""
+"""How many elements of arrays of messages a layout may have."""
 MAX_STRINGS = 4096
-"""Octets of lists of strings in a layout, all told."""
+"""How many bytes of lists of strings a layout may hold."""
 
 Layout: TypeAlias = tuple[Any, ...]
 
 _length = struct.Struct("<I").unpack_from
 
-# The elements of an array mostly are of few layouts, and share what they have in common.
+# Most elements of an array have one of a few layouts, and share these.
 _struct = lru_cache(1024)(struct.Struct)
 
 
 class Differs(Exception):
-    """The octets are not in the layout that was expected."""
+    """The message does not have the assumed layout."""
 
 
 class Step(NamedTuple):
-    """Something of a length that has to be known, and the octets before it that are fixed.
+    """Something of any length, and ``fixed``, the number of bytes in front of it.
 
-    ``sized`` is a count and as many items of one size; ``strings`` a list of strings, with
-    a count in front or (``number``) without; ``count`` a count of what is not in the same
-    stretch.
+    ``sized``: a count, and that many items of one size. ``strings``: a list of strings,
+    behind a count unless ``number`` says how many. ``count``: a count alone, of what comes
+    in the next part.
     """
 
     kind: Literal["sized", "strings", "count"]
@@ -56,18 +59,18 @@ class Step(NamedTuple):
 
 
 class Stretch(NamedTuple):
-    """Neighbours that are read at once; ``template`` lacks the lengths of the steps."""
+    """What is read at once; ``template`` is its format without the lengths of the steps."""
 
     template: str
     steps: tuple[Step, ...]
 
 
 class Loop(NamedTuple):
-    """The elements of an array of messages, each of them in a layout of its own."""
+    """The elements of an array of messages, each with a layout of its own."""
 
     plan: Plan
     number: int | None
-    """How many there are, unless the count at the end of the stretch before says it."""
+    """How many there are; None if the stretch before ends with their count."""
 
 
 Plan: TypeAlias = list[Stretch | Loop]
@@ -75,18 +78,18 @@ Plan: TypeAlias = list[Stretch | Loop]
 
 @dataclass(slots=True)
 class _Survey:
-    """Walks through the octets of a message to find its layout.
+    """Walks through the bytes of a message to find its layout.
 
-    The message was decoded before: nothing needs to be checked.
+    The message has just been decoded, so nothing needs to be checked.
     """
 
     data: bytes
     pos: int
     parts: int = 0
-    octets: int = 0  # of lists of strings
+    octets: int = 0  # bytes of lists of strings
 
     def layout(self, plan: Plan) -> Layout:
-        """The values that the decoder unpacks: those of the parts, one after the other."""
+        """The values that the decoder unpacks, of one part after the other."""
         values: list[Any] = []
         for part in plan:
             if isinstance(part, Stretch):
@@ -142,8 +145,8 @@ class _TooLarge(Exception):
 class Layouts:
     """The layouts that one decoder has seen, by the size of the message.
 
-    ``known`` is what the decoder looks into: nothing is there, or None, as long as a size
-    has to be learned, and ``()`` once it was given up.
+    The decoder looks into ``known``. A size that has to be learned is missing there, or
+    has None; a size that was given up has ``()``.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -161,13 +164,13 @@ class Layouts:
             layout = survey.layout(self._plan)
         except (_TooLarge, UnicodeDecodeError):
             layout = ()
-        # Octets that were left over belong to no layout.
+        # A message with bytes left over has no layout.
         self.known[size] = layout if survey.pos == end else ()
 
     def mistaken(self, size: int) -> Layout | None:
-        """Forget a layout that turned out to be another; gives None to learn it anew."""
+        """Forget a layout that was wrong; gives None if the size is to be learned anew."""
         mistakes = self._mistakes[size] = self._mistakes.get(size, 0) + 1
-        # Its place is kept: the sizes that were ever learned are no more than there are
-        # places, whatever comes.
+        # The size keeps its place, so that no more sizes than there are places are ever
+        # learned.
         layout = self.known[size] = () if mistakes >= MAX_MISTAKES else None
         return layout

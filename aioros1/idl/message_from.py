@@ -1,11 +1,16 @@
-"""The two ways to give a message: as one, or as its fields."""
+"""One message from what a user passes to ``publish``, ``call`` or ``reply``.
+
+All of them take a message as it is, a dict of its fields, or its fields as keyword
+arguments. :func:`message_from` makes one message of any of these, or says what is wrong.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from aioros1.idl import Message, convert, from_dict
+from aioros1.idl.convert import convert, from_dict
+from aioros1.idl.message import Message
 
 __all__ = ["message_from"]
 
@@ -15,11 +20,13 @@ def message_from(
 ) -> Any:
     """The message that ``publish(message)`` or ``publish(**fields)`` means.
 
-    ``keyword`` is the name by which the message itself may be given, where the type has
-    no field of that name, as rosgraph_msgs/Log has its ``msg``.
+    ``message`` is a message, a mapping of fields or None, ``fields`` the keyword
+    arguments. ``keyword`` is the name by which ``message`` itself can be given as a
+    keyword argument; a field of that name, such as ``msg`` of ``rosgraph_msgs/Log``,
+    goes first.
 
-    The result is a ``cls`` or, for a message of another class with the same
-    definition, that message itself. Raises :class:`TypeError` for both at once and for
+    Returns an instance of ``cls``, or ``message`` itself if its class is another one of
+    the same definition. Raises :class:`TypeError` for both a message and fields and for
     unknown fields, :class:`~aioros1.SerializationError` for a message of another type.
     """
     if message is None and keyword in fields and keyword not in cls.__slots__:
@@ -38,7 +45,7 @@ def message_from(
 
 
 def _holds_dicts(value: object) -> bool:
-    """Whether a field's value is given by fields itself, or a list of such."""
+    """Whether the value of a field is a mapping of fields itself, or a list of those."""
     if isinstance(value, (list, tuple)):
         return bool(value) and isinstance(value[0], Mapping)
     return isinstance(value, Mapping)

@@ -1,7 +1,7 @@
 """``aioros1.msg``, ``aioros1.srv``, ``aioros1.action``: modules without files.
 
-There is a module for each package that has definitions, ``aioros1.msg.std_msgs`` for
-one, and its attributes are classes, which are loaded when they are first asked for.
+Each package that has definitions has a module, such as ``aioros1.msg.std_msgs``. The
+attributes of the module are classes, which are loaded when they are first used.
 """
 
 from __future__ import annotations
@@ -12,12 +12,14 @@ from collections.abc import Callable, Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
+from threading import Lock
 from types import ModuleType
 from typing import Any
 
 from aioros1.errors import MessageNotFoundError
+from aioros1.idl.building import ACTION_SUFFIXES
 from aioros1.idl.paths import Kind
-from aioros1.idl.store import ACTION_SUFFIXES, MessageStore, default_store
+from aioros1.idl.store import MessageStore, default_store
 
 __all__ = [
     "DefinitionFinder",
@@ -31,7 +33,7 @@ __all__ = [
 
 
 def types_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
-    """All types of a package, sorted; the messages that its actions consist of among them."""
+    """All types of a package, sorted; of messages also those of its actions."""
     types = set(store.types(package, kind))
     if kind == "msg":
         actions = store.types(package, "action")
@@ -40,7 +42,7 @@ def types_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
 
 
 def names_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
-    """What the module of a package has, sorted: its types, and those of service messages."""
+    """The names in the module of a package, sorted: its types, and the messages of services."""
     names = [name.partition("/")[2] for name in types_of(store, package, kind)]
     if kind == "srv":
         names += [f"{name}{suffix}" for name in names for suffix in ("Request", "Response")]
@@ -48,7 +50,7 @@ def names_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
 
 
 class DefinitionLoader(Loader):
-    """Makes the module of all types that a package has of one kind."""
+    """Makes the module of a package for one kind of types."""
 
     def __init__(self, store: MessageStore, package: str, kind: Kind) -> None:
         self.store = store
@@ -66,11 +68,11 @@ class DefinitionLoader(Loader):
         module.__dict__["__dir__"] = self.names
 
     def names(self) -> list[str]:
-        """What the module has."""
+        """The names in the module."""
         return names_of(self.store, self.package, self.kind)
 
     def load(self, name: str) -> Any:
-        """One of these. Raises :class:`AttributeError` that says where it was searched."""
+        """The class of that name. The text of :class:`AttributeError` says where was searched."""
         try:
             return self._load(name)
         except MessageNotFoundError as exc:
@@ -105,19 +107,19 @@ class DefinitionLoader(Loader):
 
 
 class DefinitionFinder(MetaPathFinder):
-    """Finds the modules of types by one way to name them."""
+    """Finds the modules of types that are named in one way."""
 
     @abstractmethod
     def loader(self, fullname: str, path: Sequence[str] | None) -> DefinitionLoader | None:
-        """What makes the module of that name, if there is to be one."""
+        """The loader of the module of that name, or None if there is no such module."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         loader = self.loader(fullname, path)
         if loader is not None:
-            # It is a package, as with rospy. Also, what an import statement wants of a
-            # package and does not get is asked for as a module, in the lines below.
+            # It is a package, as in rospy. Also, if an import statement does not find a name
+            # in a package, it asks for a module of that name, in the lines below.
             origin = f"definitions of {loader.package}"
             return ModuleSpec(fullname, loader, origin=origin, is_package=True)
         parent, _, name = fullname.rpartition(".")
@@ -149,15 +151,19 @@ class _OurFinder(DefinitionFinder):
         return DefinitionLoader(store, package, kind) if names_of(store, package, kind) else None
 
 
+_installing = Lock()  # two threads may import aioros1.msg and aioros1.srv
+
+
 def install_finder() -> None:
     """Make the modules importable; the second time does nothing."""
-    if not any(isinstance(finder, _OurFinder) for finder in sys.meta_path):
-        # In front, as the directories with stubs look like packages without code.
-        sys.meta_path.insert(0, _OurFinder())
+    with _installing:
+        if not any(isinstance(finder, _OurFinder) for finder in sys.meta_path):
+            # In front, because directories with stubs look like packages without code.
+            sys.meta_path.insert(0, _OurFinder())
 
 
 def package_module(parent: str, name: str) -> ModuleType:
-    """The module of a package, for attribute access without an import statement."""
+    """The module of a package; ``aioros1.msg.std_msgs`` works without importing that."""
     fullname = f"{parent}.{name}"
     if name.startswith("_"):
         raise AttributeError(f"module {parent!r} has no attribute {name!r}")

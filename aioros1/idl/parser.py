@@ -1,8 +1,8 @@
-"""Definition text to specs, accepting and refusing what genmsg does.
+"""Reads definitions; accepts and refuses what genmsg does.
 
-MD5 sums are made from definitions, so that an oddity read differently here would mean
-two programs that refuse to talk; that is why the oddities of genmsg are kept, each with
-a note where it looks like a mistake.
+MD5 sums are made from definitions. If a definition were read differently here, two
+programs would refuse to talk to each other. So all oddities of genmsg are kept; those that
+look like mistakes have a comment.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _PACKAGE_TYPE = re.compile(r"([A-Za-z][A-Za-z0-9_]*)/([A-Za-z][A-Za-z0-9_]*)\Z")
 
 
 def split_type(name: str) -> tuple[str, str]:
-    """``"pkg/Type"`` in its two parts; :class:`InvalidNameError` when it is not such."""
+    """Split ``"pkg/Type"`` in two; raises :class:`InvalidNameError` for anything else."""
     match = _PACKAGE_TYPE.match(name) if isinstance(name, str) else None
     if match is None:
         raise InvalidNameError(f"{name!r} is not the name of a type: expected 'package/Type'")
@@ -33,8 +33,8 @@ def split_type(name: str) -> tuple[str, str]:
 def parse_message(type: str, text: str, *, path: str = "", line: int = 1) -> MessageSpec:
     """Read the text of a ``.msg`` file.
 
-    ``path`` and ``line`` (the number of the first line) are what errors point at; the
-    path is the type's name if not given. Raises :class:`MessageSpecError`, and
+    Errors point at ``path``, which is the name of the type if not given, and count lines
+    from ``line``. Raises :class:`MessageSpecError`, and
     :class:`InvalidNameError` for a ``type`` that is not ``pkg/Type``.
     """
     package, _ = split_type(type)
@@ -61,8 +61,8 @@ def parse_message(type: str, text: str, *, path: str = "", line: int = 1) -> Mes
 def parse_service(type: str, text: str, *, path: str = "") -> ServiceSpec:
     """Read the text of a ``.srv`` file; the messages are ``pkg/TypeRequest`` and ``Response``.
 
-    As in genmsg, a line that *begins* with three dashes separates, a text without one is
-    a service with an empty response, and what follows a second one belongs to the response.
+    As in genmsg, a line that *begins* with three dashes separates the two. Without one, the
+    response is empty; behind a second one, the response goes on.
     """
     split_type(type)
     path = path or type
@@ -82,8 +82,8 @@ def parse_service(type: str, text: str, *, path: str = "") -> ServiceSpec:
             numbered.append(source)
     request_text = "".join(f"{source}\n" for source in request)
     response_text = "".join(f"{source}\n" for source in response)
-    # Parsed with a blank in place of further separators, so that errors name the line of
-    # the file, and kept with the text that genmsg would keep.
+    # It is parsed with an empty line in place of each further separator, so that errors
+    # name the line of the file; the text that is kept is the one that genmsg keeps.
     parsed = parse_message(f"{type}Response", "\n".join(numbered), path=path, line=response_line)
     return ServiceSpec(
         type,
@@ -94,7 +94,7 @@ def parse_service(type: str, text: str, *, path: str = "") -> ServiceSpec:
 
 
 def action_texts(type: str, text: str, *, path: str = "") -> dict[str, str]:
-    """The texts of the seven messages of an action, by what follows the action's name."""
+    """The texts of the seven messages of an action, by their suffixes."""
     _, name = split_type(type)
     sections: list[list[str]] = [[]]
     for source in text.split("\n"):
@@ -125,7 +125,7 @@ def parse_action(type: str, text: str, *, path: str = "") -> ActionSpec:
     """Read the text of a ``.action`` file."""
     path = path or type
     texts = action_texts(type, text, path=path)
-    # The three written sections are found in the file one after the other.
+    # The three sections come one after the other in the file.
     line = 1
     lines = {}
     for suffix in ("Goal", "Result", "Feedback"):
@@ -146,7 +146,7 @@ def _strip_comment(line: str) -> str:
 
 
 def _words(code: str) -> list[str]:
-    # Only a space separates words; other white space is only trimmed off them.
+    # Only spaces separate words; other white space is stripped from them.
     return [word for part in code.split(" ") if (word := part.strip())]
 
 
@@ -159,7 +159,7 @@ def _parse_field(code: str, package: str) -> Field:
         raise ValueError(f"{name!r} is not a legal field name")
     base, dimensions = _parse_type(type_)
     if "/" not in type_:
-        # `Header` is short for std_msgs/Header in any package, but `Header[]` is not.
+        # `Header` means std_msgs/Header in any package; `Header[]` does not.
         if type_ == "Header":
             type_ = base = HEADER_TYPE
         elif not is_builtin(base):
@@ -174,7 +174,7 @@ def _parse_field(code: str, package: str) -> Field:
 
 
 def _parse_type(type_: str) -> tuple[str, list[int | None]]:
-    """A type without its brackets, and the number (or None) in each pair of brackets."""
+    """A type without brackets, and the number (or None) in each pair of brackets."""
     base, bracket, rest = type_.partition("[")
     if not _RESOURCE.match(base) or "//" in base:
         raise ValueError(f"{type_!r} is not a legal field type")
@@ -182,7 +182,7 @@ def _parse_type(type_: str) -> tuple[str, list[int | None]]:
     rest = bracket + rest
     while rest:
         inner, closing, after = rest[1:].partition("]")
-        # int() takes other digits than ASCII too, and so does genmsg.
+        # Like genmsg, int() also takes digits beyond ASCII.
         if rest[0] != "[" or not closing or not (inner == "" or inner.isdecimal()):
             raise ValueError(f"{type_!r} is not a legal field type")
         dimensions.append(int(inner) if inner else None)
@@ -191,8 +191,8 @@ def _parse_type(type_: str) -> tuple[str, list[int | None]]:
 
 
 def _is_attribute(name: str) -> bool:
-    # Beyond ASCII, an attribute's name is normalised by the compiler and may not be an
-    # identifier at all; genmsg lets such names pass and then writes code that fails.
+    # The compiler normalizes names beyond ASCII, and not all are identifiers. genmsg lets
+    # such names pass, and then generates code that fails.
     return name.isascii() or (name.isidentifier() and unicodedata.normalize("NFKC", name) == name)
 
 
@@ -202,8 +202,8 @@ def _parse_constant(source: str, code: str) -> Constant:
     if type_ not in CONSTANT_TYPES:
         raise ValueError(f"{type_!r} is not a legal type of a constant")
     if type_ == "string":
-        # Everything behind the equals sign of the *whole* line, # included. The name is
-        # what follows the first space of it, which an indented line has at its start.
+        # The value is all that follows the equals sign in the *whole* line, # included. The
+        # name follows the first space, which is the indentation if the line has one.
         before, _, value = source.partition("=")
         name = before[before.find(" ") + 1 :]
     else:
@@ -227,8 +227,8 @@ def _constant_value(type_: str, text: str) -> ConstantValue:
         value = int(text)
     except Exception:
         raise ValueError(f"{text!r} is not a value of {type_}") from None
-    # genmsg computes these limits in floating point, which makes those of 64 bits one
-    # too wide on either side.
+    # genmsg computes these limits in floating point, so that those of 64 bits are too
+    # wide by one on either side.
     low, high = BUILTINS[type_].low, BUILTINS[type_].high
     if type_ == "int64":
         low, high = low - 1, high + 1
@@ -244,7 +244,7 @@ def _literal_truth(text: str) -> bool:
         return True
     if text in ("False", "0"):
         return False
-    # Any literal of Python will do, by its truth.
+    # Any other literal of Python counts by its truth value.
     from ast import literal_eval
 
     return bool(literal_eval(text))

@@ -1,4 +1,4 @@
-"""Where definition files are: the places of a ROS 1 installation, and our own bundle."""
+"""Finds definition files: in ROS 1 installations, and in the bundle of the library."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PACKAGE_FILES = ("package.xml", "manifest.xml")
 
 
 def bundle() -> Path:
-    """The definitions that come with the library."""
+    """The directory of the definitions that come with the library."""
     package = Path(__file__).resolve().parent.parent
     packed = package / "share" / "msg"  # in a wheel
     return packed if packed.is_dir() else package.parent / "share" / "msg"
@@ -29,7 +29,7 @@ def bundle() -> Path:
 
 def installed() -> Iterator[Path]:
     """The ``share`` directories of the ROS 1 distributions on this machine."""
-    # A ROS 2 lies in the same place, with other definitions by the same names.
+    # ROS 2 is installed in the same place, with other definitions of the same names.
     marked = [path.parent / "share" for path in Path("/opt/ros").glob("*/.catkin")]
     preferred = os.environ.get("ROS_DISTRO")
     yield from sorted(marked, key=lambda path: (path.parent.name == preferred, path), reverse=True)
@@ -37,11 +37,11 @@ def installed() -> Iterator[Path]:
 
 
 class _Root:
-    """One place, in any of the layouts in use.
+    """One directory to search, in any of the layouts in use.
 
-    ``<root>/<pkg>/msg/T.msg`` and ``<root>/<pkg>/T.msg``; the package itself, or its
-    ``msg`` directory, as the root; and, with ``crawl``, packages at any depth, which are
-    known by their ``package.xml``.
+    Definitions are in ``<root>/<pkg>/msg/T.msg`` or ``<root>/<pkg>/T.msg``, or the root is
+    a package or its ``msg`` directory. With ``crawl`` packages are also found at any depth,
+    by their ``package.xml``.
     """
 
     def __init__(self, path: Path, *, crawl: bool) -> None:
@@ -50,7 +50,7 @@ class _Root:
         self._crawled: dict[str, Path] | None = None
 
     def directories(self, package: str, kind: Kind) -> Iterator[Path]:
-        """Where files of the package may be; the cheap places first."""
+        """Where files of the package may be; those that are quick to look at come first."""
         path = self.path
         yield path / package / kind
         yield path / package
@@ -73,10 +73,11 @@ class _Root:
         return found
 
     def crawled(self) -> dict[str, Path]:
-        """The packages found by their files, read once."""
-        if self._crawled is None:
-            self._crawled = dict(_crawl(self.path)) if self.crawl else {}
-        return self._crawled
+        """The packages that were found by their ``package.xml``; they are searched once."""
+        found = self._crawled
+        if found is None:
+            self._crawled = found = dict(_crawl(self.path)) if self.crawl else {}
+        return found
 
 
 def _subdirectories(path: Path | str) -> list[os.DirEntry[str]]:
@@ -89,7 +90,7 @@ def _subdirectories(path: Path | str) -> list[os.DirEntry[str]]:
 
 
 def _crawl(root: Path) -> Iterator[tuple[str, Path]]:
-    """Name and directory of each package below; of two by one name, the first."""
+    """Name and directory of each package below; of two with one name, the first."""
     seen: set[str] = set()
     names: set[str] = set()
     waiting = [str(root)]
@@ -126,11 +127,11 @@ def _package_name(manifest: str) -> str | None:
 
 
 class SearchPath:
-    """An ordered list of places.
+    """An ordered list of directories to search.
 
-    ``standard`` adds those of the environment (``ROS_PACKAGE_PATH``), of an installed
-    ROS and the bundle. Nothing is read before the first question; what ``ROS_PACKAGE_PATH``
-    says is looked at again when it has changed.
+    ``standard`` adds those of ``ROS_PACKAGE_PATH``, of an installed ROS and the bundle.
+    Nothing is read before the first search. A change of ``ROS_PACKAGE_PATH`` counts from
+    the next search on.
     """
 
     def __init__(self, paths: Iterable[str | os.PathLike[str]] = (), *, standard: bool = False):
@@ -142,13 +143,16 @@ class SearchPath:
     def _roots(self) -> list[_Root]:
         if not self._standard:
             return self._given
-        if self._fixed is None:
-            self._fixed = [_Root(path, crawl=False) for path in (*installed(), bundle())]
+        # Threads may do this at the same time: each reads once and replaces as a whole.
+        fixed = self._fixed
+        if fixed is None:
+            self._fixed = fixed = [_Root(p, crawl=False) for p in (*installed(), bundle())]
         value = os.environ.get("ROS_PACKAGE_PATH", "")
-        if self._environment[0] != value:
-            parts = filter(None, value.split(os.pathsep))
-            self._environment = value, [_Root(Path(part), crawl=True) for part in parts]
-        return [*self._given, *self._environment[1], *self._fixed]
+        known, roots = self._environment
+        if known != value:
+            roots = [_Root(Path(part), crawl=True) for part in value.split(os.pathsep) if part]
+            self._environment = value, roots
+        return [*self._given, *roots, *fixed]
 
     def find(self, package: str, name: str, kind: Kind) -> Path | None:
         """The file that defines ``package/name``, or None."""
@@ -174,5 +178,14 @@ class SearchPath:
         return {name for name in names if any(self.types(name, kind) for kind in KINDS)}
 
     def places(self) -> list[str]:
-        """The places searched, for an error."""
+        """The directories that are searched, for an error."""
         return [str(root.path) for root in self._roots()]
+
+    def describe(self) -> str:
+        """What is searched, in a few words and without looking at any file."""
+        given = [str(root.path) for root in self._given]
+        if len(given) > 3:
+            given[2:] = [f"{len(given) - 2} more directories"]
+        if self._standard:
+            given.append("the standard places")
+        return ", ".join(given) or "no directories"

@@ -1,22 +1,22 @@
-"""Pickling of messages, whose classes are made at run time."""
+"""Pickles messages, whose classes are made at run time."""
 
 from __future__ import annotations
 
 import sys
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from aioros1.idl.message import Message
+from aioros1.idl.store import MessageStore
 from aioros1.idl.values import own_memory
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
-    from aioros1.idl.store import MessageStore
 
 __all__ = ["reduce_message"]
 
+_store = MessageStore()
+"""A store for this alone: a load by name must not find what was unpickled here."""
+
 
 def reduce_message(message: Message) -> tuple[Any, ...]:
-    """By the class's name where that leads to the class, else by its definition."""
+    """Pickle by the name of the class if an import finds it, otherwise by its definition."""
     cls = type(message)
     values = tuple(
         own_memory(value) if isinstance(value, memoryview) else value
@@ -35,16 +35,13 @@ def _restore(cls: type[Message], values: tuple[Any, ...]) -> Message:
     return message
 
 
-@cache
-def _store() -> MessageStore:
-    """A store of their own: what was pickled here must not be found by name there."""
-    from aioros1.idl.store import MessageStore
-
-    return MessageStore()
-
-
 def _restore_defined(type: str, md5sum: str, full_text: str, values: tuple[Any, ...]) -> Message:
-    cls = _store().add_definition(type, full_text)
+    cls = _store.add_definition(type, full_text)
     if cls._md5sum != md5sum:
-        raise TypeError(f"the pickled definition of {type} is not the one it was")
+        raise TypeError(
+            f"the pickled definition of {type} has md5sum {cls._md5sum}, expected {md5sum}"
+        )
     return _restore(cls, values)
+
+
+Message._reduce = staticmethod(reduce_message)

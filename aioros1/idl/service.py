@@ -1,12 +1,12 @@
-"""Classes of services and actions: nothing but names for their messages."""
+"""The classes of services and actions, which hold the classes of their messages."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, overload
 
 from aioros1.idl.message import AnyMessage, Message
-from aioros1.idl.spec import ActionSpec, ServiceSpec
+from aioros1.idl.spec import ActionSpec, MessageSpec, ServiceSpec
 
 __all__ = [
     "Action",
@@ -15,6 +15,7 @@ __all__ = [
     "Service",
     "make_action_class",
     "make_service_class",
+    "spec_of",
 ]
 
 Q = TypeVar("Q", bound=Message)
@@ -25,11 +26,20 @@ Feedback = TypeVar("Feedback", bound=Message)
 
 
 class Service(Generic[Q, A]):
-    """The type of a service; subclasses are made by a :class:`MessageStore`.
+    """The base class of all service types.
 
-    Their ``Request`` and ``Response`` are the classes of the two messages. Checkers read
-    of these in the stub of each service, as a class variable cannot be generic.
+    The class of a service is made from its definition: by an import from
+    :mod:`aioros1.srv`, by :func:`aioros1.load_srv` or by a :class:`~aioros1.MessageStore`.
+    ``SetBool.Request`` and ``SetBool.Response`` are the classes of its two messages. A
+    service class has no instances of its own.
+
+    The class attributes that genpy's services have are here too: ``_type``
+    (``"pkg/Type"``), ``_md5sum``, ``_full_text``, ``_request_class`` and
+    ``_response_class``.
     """
+
+    # `Request` and `Response` are in the stub of each service: a class variable cannot be
+    # generic.
 
     __slots__ = ()
 
@@ -42,11 +52,17 @@ class Service(Generic[Q, A]):
 
 
 class Action(Generic[Goal, Result, Feedback]):
-    """The type of an action; subclasses are made by a :class:`MessageStore`.
+    """The base class of all action types.
 
-    ``Goal``, ``Result`` and ``Feedback`` are what was written in the definition;
-    ``ActionGoal``, ``ActionResult`` and ``ActionFeedback`` travel on the topics, and
-    ``Action`` is the message that has these three as its fields.
+    The class of an action is made from its definition: by an import from
+    :mod:`aioros1.action`, by :func:`aioros1.load_action` or by a
+    :class:`~aioros1.MessageStore`. It has seven message classes as its attributes:
+    ``Goal``, ``Result`` and ``Feedback`` are what the definition says; ``ActionGoal``,
+    ``ActionResult`` and ``ActionFeedback`` are what travels on the topics; ``Action`` has
+    these three as its fields.
+
+    ``_type`` is ``"pkg/Type"``, ``_md5sum`` that of ``Action``, ``_full_text`` the text
+    of the definition.
     """
 
     __slots__ = ()
@@ -122,3 +138,16 @@ def make_action_class(
         **messages,
     }
     return type(spec.type.partition("/")[2], (AnyAction,), namespace)
+
+
+@overload
+def spec_of(cls: type[Message]) -> MessageSpec: ...
+@overload
+def spec_of(cls: type[Service[Any, Any]]) -> ServiceSpec: ...
+@overload
+def spec_of(cls: type[Action[Any, Any, Any]]) -> ActionSpec: ...
+def spec_of(
+    cls: type[Message] | type[Service[Any, Any]] | type[Action[Any, Any, Any]],
+) -> MessageSpec | ServiceSpec | ActionSpec:
+    """The definition from which a class was made, as data."""
+    return cls._spec

@@ -1,4 +1,4 @@
-"""Definitions for people: what is in a type, as rosmsg and rossrv show it."""
+"""Shows definitions as rosmsg and rossrv do."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _SEPARATOR = "---\n"
 
 
 def show(spec: MessageSpec | ServiceSpec | ActionSpec, lookup: Lookup) -> str:
-    """One line for each constant and each field, and below a field those of its type.
+    """One line for each constant and field; the fields of a nested message are indented.
 
-    Lines of three dashes are between the parts of a service or an action. ``lookup`` gives
-    the specs of the messages inside, by their types.
+    A line of three dashes separates the parts of a service or an action. ``lookup`` gives
+    the spec of a message inside, by its type.
     """
     return _SEPARATOR.join("".join(_lines(part, lookup, "")) for part in _parts(spec))
 

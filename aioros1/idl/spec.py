@@ -1,4 +1,4 @@
-"""Definitions as data: what the parser makes of a text."""
+"""Definitions as data, which the parser makes of texts."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ ConstantValue: TypeAlias = int | float | bool | str
 class Field:
     """One field.
 
-    ``type`` is resolved but as written otherwise (``geometry_msgs/Point[]``,
-    ``float64[36]``), ``base_type`` the same without the brackets. ``array_len`` is the
-    length of a fixed array, None for a variable one and for no array.
+    ``type`` is as written, but with its package (``geometry_msgs/Point[]``,
+    ``float64[36]``); ``base_type`` is the same without brackets. ``array_len`` is the
+    length of a fixed array, and None for any other field.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """One constant. ``text`` is the value as it enters the MD5 sum."""
+    """One constant. ``text`` is the value as it is hashed for the MD5 sum."""
 
     name: str
     type: str
@@ -45,7 +45,7 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class MessageSpec:
-    """The definition of a message type; ``text`` is the source it was read from."""
+    """The definition of a message; ``text`` is the text that it was read from."""
 
     type: str
     fields: tuple[Field, ...]
@@ -54,7 +54,7 @@ class MessageSpec:
 
     @property
     def package(self) -> str:
-        """The part of the type's name before the slash."""
+        """The package of the type: what is before the slash."""
         return self.type.partition("/")[0]
 
     @property
@@ -65,13 +65,13 @@ class MessageSpec:
 
     @property
     def dependencies(self) -> tuple[str, ...]:
-        """The message types that fields have, in order, each named once."""
+        """The message types of the fields, in order and without repetition."""
         return tuple(dict.fromkeys(f.base_type for f in self.fields if not f.is_builtin))
 
 
 @dataclass(frozen=True, slots=True)
 class ServiceSpec:
-    """The definition of a service: two messages."""
+    """The definition of a service, which has two messages."""
 
     type: str
     request: MessageSpec
@@ -81,9 +81,9 @@ class ServiceSpec:
 
 @dataclass(frozen=True, slots=True)
 class ActionSpec:
-    """The definition of an action: the seven messages that actionlib makes of it.
+    """The definition of an action, of which actionlib makes seven messages.
 
-    ``messages`` has them by what follows the action's name: ``Action``, ``ActionGoal``,
+    ``messages`` has them by their suffixes: ``Action``, ``ActionGoal``,
     ``ActionResult``, ``ActionFeedback``, ``Goal``, ``Result``, ``Feedback``.
     """
 

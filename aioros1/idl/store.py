@@ -1,4 +1,4 @@
-"""The store: types by name, made from definitions wherever these are found."""
+"""The store: gives the classes of types by name, from definitions wherever they are."""
 
 # ruff: noqa: A001 - `type` is what ROS calls the name of a type, and part of the contract
 
@@ -7,27 +7,34 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from threading import RLock
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, TypeAlias, TypeVar
 
 from aioros1.errors import MessageNotFoundError, MessageSpecError
 from aioros1.idl import digest
-from aioros1.idl.factory import make_message_class, specs_of
+from aioros1.idl.building import (
+    ACTION_SUFFIXES,
+    ActionClass,
+    Chain,
+    MessageClass,
+    ServiceClass,
+    build_action,
+    build_message,
+    build_service,
+    join_action,
+    join_service,
+    needed_by,
+)
+from aioros1.idl.check import describe
+from aioros1.idl.factory import specs_of
 from aioros1.idl.message import AnyMessage
 from aioros1.idl.parser import action_texts, parse_action, parse_message, parse_service, split_type
 from aioros1.idl.paths import KINDS, Kind, SearchPath
-from aioros1.idl.service import (
-    AnyAction,
-    AnyService,
-    make_action_class,
-    make_service_class,
-)
-from aioros1.idl.spec import MessageSpec, ServiceSpec
+from aioros1.idl.service import AnyAction, AnyService
+from aioros1.idl.spec import MessageSpec
 
 __all__ = [
-    "ACTION_SUFFIXES",
     "MessageStore",
     "default_store",
     "load_action",
@@ -37,35 +44,26 @@ __all__ = [
 ]
 
 _DEFAULT: Final = object()
-_MAX_DEPTH = 100
 _MAX_DEFINITIONS = 1000
 
-ACTION_SUFFIXES: Final = (
-    "ActionGoal",
-    "ActionResult",
-    "ActionFeedback",
-    "Action",
-    "Goal",
-    "Result",
-    "Feedback",
-)
+_ACTION_FIELDS: Final = ("action_goal", "action_result", "action_feedback")
+"""The fields of the message ``TypeAction`` that an action is given as in rospy."""
 
-# By other names, as `type` is a parameter in much of this module.
-_MessageClass: TypeAlias = type[AnyMessage]
-_ServiceClass: TypeAlias = type[AnyService]
+_V = TypeVar("_V")
 
-_Chain: TypeAlias = tuple[str, ...]
 _Source: TypeAlias = tuple[str, str]  # text, and the path for errors
 
 
 class MessageStore:
-    """Loads types by name, each once.
+    """Loads types by name, each of them once.
 
     ``paths`` are searched first: directories with packages at any depth, single packages,
-    or ``msg`` directories. What is found neither there nor among the texts added is left
-    to ``parent``, by default :func:`default_store`; None is for a store that knows
-    nothing but its own. Types of the parent that contain a type this store has a
-    definition of are made anew, with that definition.
+    or ``msg`` directories. Types that are neither there nor among the texts that were added
+    are looked up in ``parent``, by default :func:`~aioros1.idl.default_store`. With None
+    the store knows only its own definitions. If a type of the parent contains a type that
+    this store defines itself, it is made anew with that definition.
+
+    A store can be used from several threads.
     """
 
     def __init__(
@@ -79,15 +77,16 @@ class MessageStore:
         self._search = SearchPath(paths)
         self._parent = parent
         self._texts: dict[tuple[Kind, str], str] = {}
-        self._messages: dict[str, _MessageClass] = {}
-        self._services: dict[str, _ServiceClass] = {}
-        self._actions: dict[str, type[AnyAction]] = {}
-        self._definitions: dict[tuple[str, str], _MessageClass] = {}
+        self._messages: dict[str, MessageClass] = {}
+        self._services: dict[str, ServiceClass] = {}
+        self._actions: dict[str, ActionClass] = {}
+        self._definitions: dict[Any, MessageClass] = {}
+        self._joined: dict[Any, Any] = {}
         self._lock = RLock()
 
     @property
     def parent(self) -> MessageStore | None:
-        """The store that is asked for what this one does not have."""
+        """The store in which types are looked up that this one does not define; may be None."""
         if self._parent is _DEFAULT:
             self._parent = default_store()
         assert self._parent is None or isinstance(self._parent, MessageStore)
@@ -95,12 +94,12 @@ class MessageStore:
 
     # -- loading ----------------------------------------------------------------------
 
-    def load_msg(self, type: str) -> _MessageClass:
+    def load_msg(self, type: str) -> MessageClass:
         """The class of a message type, ``"pkg/Type"``.
 
-        Raises :class:`MessageNotFoundError` when there is no definition of it or of a
-        type inside it, :class:`MessageSpecError` when one cannot be read, and
-        :class:`InvalidNameError`.
+        Raises :class:`MessageNotFoundError` if there is no definition of the type or of one
+        inside it, :class:`MessageSpecError` if a definition cannot be read, and
+        :class:`InvalidNameError` if ``type`` is not such a name.
         """
         found = self._messages.get(type)
         if found is not None:
@@ -108,45 +107,39 @@ class MessageStore:
         with self._lock:
             return self._load(type, ())
 
-    def load_srv(self, type: str) -> _ServiceClass:
+    def load_srv(self, type: str) -> ServiceClass:
         """The class of a service type; errors as for :meth:`load_msg`."""
         found = self._services.get(type)
         if found is not None:
             return found
         with self._lock:
-            service = self._load_srv(type)
-            self._services[type] = service
-            return service
+            found = self._services.get(type)
+            if found is None:
+                found = self._services[type] = self._load_srv(type)
+            return found
 
-    def load_action(self, type: str) -> type[AnyAction]:
+    def load_action(self, type: str) -> ActionClass:
         """The class of an action type; errors as for :meth:`load_msg`.
 
-        The seven messages can be loaded by their own names, too.
+        You can also load each of its seven messages by name.
         """
         found = self._actions.get(type)
         if found is not None:
             return found
         with self._lock:
-            source = self._source("action", type)
-            if source is None:
-                if self.parent is None:
-                    raise self._not_found(type, ("action",))
-                with self._searched_too():
-                    return self.parent.load_action(type)
-            spec = parse_action(type, source[0], path=source[1])
-            messages = {suffix: self._load(f"{type}{suffix}", (type,)) for suffix in spec.messages}
-            made = make_action_class(spec, messages, module=_module("action", type))
-            self._actions[type] = made
-            return made
+            found = self._actions.get(type)
+            if found is None:
+                found = self._actions[type] = self._load_action(type)
+            return found
 
     # -- adding -----------------------------------------------------------------------
 
     def add_text(self, type: str, text: str, *, kind: Kind | None = None) -> None:
-        """Define a type by the text of a file, in place of any file there is.
+        """Define a type by a text, which goes before any file.
 
-        Without ``kind`` the lines of three dashes tell: none for a message, one for a
-        service, two for an action. Types that the definition needs may be added later.
-        Classes already made from a former definition stay what they are. Raises
+        Without ``kind`` the lines of three dashes decide: none for a message, one for a
+        service, two for an action. Types that the definition needs can be added later.
+        Classes that were made from an earlier definition do not change. Raises
         :class:`MessageSpecError` and :class:`InvalidNameError`.
         """
         if kind is None:
@@ -168,14 +161,15 @@ class MessageStore:
             self._services.clear()
             self._actions.clear()
             self._definitions.clear()
+            self._joined.clear()
 
-    def add_definition(self, type: str, full_text: str) -> _MessageClass:
-        """The class for a definition with all it needs, as in a connection header or a bag.
+    def add_definition(self, type: str, full_text: str) -> MessageClass:
+        """The class for a complete definition, as connection headers and bags have it.
 
-        All types inside are read from this text, never from anywhere else. When the store
-        knows the type by the same MD5 sum, its class is returned. Otherwise the new class
-        stands beside those of the store: loading by name finds it only when there is
-        nothing else by that name.
+        All types inside are read from this text, and from nowhere else. If the store knows
+        the type with the same MD5 sum, you get the class of the store. Otherwise the new
+        class does not replace that of the store: a load by name finds it only if there is
+        no other definition of that name. Raises errors as :meth:`load_msg` does.
         """
         with self._lock:
             # Every connection to a topic brings the same text again.
@@ -185,18 +179,18 @@ class MessageStore:
                 _remember(self._definitions, (type, full_text), found)
             return found
 
-    def _define(self, type: str, full_text: str) -> _MessageClass:
+    def _define(self, type: str, full_text: str) -> MessageClass:
         texts = digest.split_full_text(type, full_text)
-        made: dict[str, _MessageClass] = {}
+        made: dict[str, MessageClass] = {}
 
-        def load(name: str, chain: _Chain) -> _MessageClass:
+        def load(name: str, chain: Chain) -> MessageClass:
             if name not in made:
                 if name not in texts:
                     raise MessageNotFoundError(
-                        f"the definition of {type} lacks {name}{_needed_by(chain)}"
+                        f"the definition of {type} lacks {name}{needed_by(chain)}"
                     )
                 spec = parse_message(name, texts[name])
-                made[name] = _build(spec, load, chain)
+                made[name] = build_message(spec, load, chain)
             return made[name]
 
         cls = load(type, ())
@@ -212,7 +206,7 @@ class MessageStore:
     # -- looking ----------------------------------------------------------------------
 
     def find(self, type: str, kind: Kind | None = None) -> Path:
-        """The file that defines a type; :class:`MessageNotFoundError` when there is none."""
+        """The file that defines a type. Raises :class:`MessageNotFoundError` if none does."""
         package, name = split_type(type)
         for wanted in (kind,) if kind else KINDS:
             path = self._search.find(package, name, wanted)
@@ -225,64 +219,129 @@ class MessageStore:
 
     def packages(self) -> list[str]:
         """The names of all packages that have definitions, sorted."""
-        names = self._search.packages() | {split_type(type)[0] for _, type in self._texts}
+        with self._lock:
+            names = {split_type(type)[0] for _, type in self._texts}
+        names |= self._search.packages()
         return sorted(names.union(self.parent.packages() if self.parent else ()))
 
     def types(self, package: str, kind: Kind = "msg") -> list[str]:
         """All types of a package, as ``pkg/Type``, sorted."""
-        names = {f"{package}/{name}" for name in self._search.types(package, kind)}
-        names |= {
-            type for other, type in self._texts if other == kind and split_type(type)[0] == package
-        }
+        with self._lock:
+            names = {
+                type
+                for other, type in self._texts
+                if other == kind and split_type(type)[0] == package
+            }
+        names |= {f"{package}/{name}" for name in self._search.types(package, kind)}
         return sorted(names.union(self.parent.types(package, kind) if self.parent else ()))
 
     def places(self) -> list[str]:
-        """The directories that are searched, in this order."""
+        """The directories that are searched, in order."""
         inherited = self.parent.places() if self.parent else []
         return list(dict.fromkeys([*self._search.places(), *inherited]))
 
     # -- what users hand over in place of a name ---------------------------------------
 
-    def resolve_msg(self, type_or_class: Any) -> _MessageClass:
-        """The class that is meant by a class of ours, ``"pkg/Type"`` or a class of genpy.
+    def resolve_msg(self, type_or_class: Any) -> MessageClass:
+        """The message class that a user means by a name or a class.
 
-        For a class that is not ours, one with the same MD5 sum: the store's, or one made
-        from the class's ``_full_text``. Raises :class:`TypeError` for anything else.
+        ``type_or_class`` is ``"pkg/Type"``, a message class of ours, which is returned as
+        it is, or one of genpy's. For a class of genpy's you get a class of ours with the
+        same MD5 sum: the store's if it knows such a type, otherwise one made from the
+        class's own definition.
+
+        Raises :class:`TypeError` for anything else, and errors as :meth:`load_msg` does.
         """
-        if isinstance(type_or_class, type):
+        if isinstance(type_or_class, str):
+            return self.load_msg(type_or_class)
+        if isinstance(type_or_class, type) and isinstance(_genpy(type_or_class, "_type"), str):
             if issubclass(type_or_class, AnyMessage):
                 return type_or_class
-            type_ = getattr(type_or_class, "_type", None)
-            md5sum = getattr(type_or_class, "_md5sum", None)
-            text = getattr(type_or_class, "_full_text", None)
-            if isinstance(type_, str) and isinstance(md5sum, str) and isinstance(text, str):
+            type_ = _genpy(type_or_class, "_type")
+            md5sum = _genpy(type_or_class, "_md5sum")
+            text = _genpy(type_or_class, "_full_text")
+            is_service = _genpy(type_or_class, "_request_class") is not None
+            is_other = is_service or issubclass(type_or_class, AnyAction)
+            if isinstance(md5sum, str) and isinstance(text, str) and not is_other:
                 return self._foreign(type_, md5sum, text)
-        elif isinstance(type_or_class, str):
-            return self.load_msg(type_or_class)
-        raise TypeError(f"{type_or_class!r} is neither a message class nor 'package/Type'")
+        raise _not_a_type("a message", type_or_class)
 
-    def resolve_srv(self, type_or_class: Any) -> _ServiceClass:
-        """The same for services."""
-        if isinstance(type_or_class, type):
+    def resolve_srv(self, type_or_class: Any) -> ServiceClass:
+        """The service class that a user means by a name or a class.
+
+        Takes names, classes of ours and classes of genpy's, as :meth:`resolve_msg` does;
+        so for the errors.
+        """
+        if isinstance(type_or_class, str):
+            return self.load_srv(type_or_class)
+        if isinstance(type_or_class, type) and isinstance(_genpy(type_or_class, "_type"), str):
             if issubclass(type_or_class, AnyService):
                 return type_or_class
-            type_ = getattr(type_or_class, "_type", None)
-            md5sum = getattr(type_or_class, "_md5sum", None)
-            request = getattr(type_or_class, "_request_class", None)
-            response = getattr(type_or_class, "_response_class", None)
-            if isinstance(type_, str) and isinstance(request, type) and isinstance(response, type):
+            request = _genpy(type_or_class, "_request_class")
+            response = _genpy(type_or_class, "_response_class")
+            if isinstance(request, type) and isinstance(response, type):
+                type_ = _genpy(type_or_class, "_type")
+                md5sum = _genpy(type_or_class, "_md5sum")
                 try:
                     known = self.load_srv(type_)
                 except (MessageNotFoundError, MessageSpecError):
                     known = None
                 if known is not None and known._md5sum == md5sum:
                     return known
-                return _join_service(type_, self.resolve_msg(request), self.resolve_msg(response))
-        elif isinstance(type_or_class, str):
-            return self.load_srv(type_or_class)
-        raise TypeError(f"{type_or_class!r} is neither a service class nor 'package/Type'")
+                parts = self.resolve_msg(request), self.resolve_msg(response)
+                made: ServiceClass = self._join(
+                    (type_, *parts), lambda: join_service(type_, *parts)
+                )
+                return made
+        raise _not_a_type("a service", type_or_class)
 
-    def _foreign(self, type: str, md5sum: str, full_text: str) -> _MessageClass:
+    def resolve_action(self, type_or_class: Any) -> ActionClass:
+        """The action class that a user means by a name or a class.
+
+        ``type_or_class`` is ``"pkg/Type"``, an action class of ours, which is returned as
+        it is, or what rospy's actionlib takes: the message class ``TypeAction``, genpy's
+        or ours.
+
+        Raises :class:`TypeError` for anything else, and errors as :meth:`load_action` does.
+        """
+        if isinstance(type_or_class, str):
+            return self.load_action(type_or_class)
+        if isinstance(type_or_class, type) and isinstance(_genpy(type_or_class, "_type"), str):
+            if issubclass(type_or_class, AnyAction):
+                return type_or_class
+            if tuple(type_or_class.__dict__.get("__slots__", ())) == _ACTION_FIELDS:
+                return self._action_of(self.resolve_msg(type_or_class))
+        raise _not_a_type("an action", type_or_class)
+
+    def __repr__(self) -> str:
+        loaded = len(self._messages) + len(self._services) + len(self._actions)
+        added = f", {_counted(len(self._texts), 'added text')}" if self._texts else ""
+        return (
+            f"<MessageStore: {self._search.describe()}{added}, {_counted(loaded, 'type')} loaded>"
+        )
+
+    def _action_of(self, message: MessageClass) -> ActionClass:
+        """The action whose message ``TypeAction`` this is."""
+        type = message._type.removesuffix("Action")
+        try:
+            known = self.load_action(type)
+        except (MessageNotFoundError, MessageSpecError):
+            known = None
+        if known is not None and known._md5sum == message._md5sum:
+            return known
+        made: ActionClass = self._join(message, lambda: join_action(message))
+        return made
+
+    def _join(self, key: Any, make: Callable[[], Any]) -> Any:
+        """What ``make`` makes of classes, once for each key."""
+        with self._lock:
+            made = self._joined.get(key)
+            if made is None:
+                made = make()
+                _remember(self._joined, key, made)
+            return made
+
+    def _foreign(self, type: str, md5sum: str, full_text: str) -> MessageClass:
         try:
             known = self.load_msg(type)
             if known._md5sum == md5sum:
@@ -306,15 +365,15 @@ class MessageStore:
         path = self._search.find(*split_type(type), kind)
         if path is None:
             return None
-        # Definitions are ASCII by rule; a comment in Latin-1 must not be the end of it, and
-        # a constant keeps its octets, which count for the MD5 sum.
+        # Definitions have to be ASCII. But a comment in Latin-1 does no harm, and a constant
+        # keeps its bytes, which count for the MD5 sum.
         return path.read_text(encoding="utf-8", errors="surrogateescape"), str(path)
 
     def _spec(self, type: str) -> MessageSpec | None:
         source = self._source("msg", type)
         if source is not None:
             return parse_message(type, source[0], path=source[1])
-        # The messages of an action exist as files only where it has been built.
+        # The messages of an action have files only where the action has been built.
         for suffix in ACTION_SUFFIXES:
             base = type.removesuffix(suffix)
             if base != type and not base.endswith("/"):
@@ -324,7 +383,7 @@ class MessageStore:
                     return parse_message(type, text, path=source[1])
         return None
 
-    def _load(self, type: str, chain: _Chain) -> _MessageClass:
+    def _load(self, type: str, chain: Chain) -> MessageClass:
         found = self._messages.get(type)
         if found is not None:
             return found
@@ -335,16 +394,17 @@ class MessageStore:
                 self._messages[type] = inherited
                 return inherited
             spec = inherited._spec
-        cls = _build(spec, self._load, chain)
+        cls = build_message(spec, self._load, chain)
         self._messages[type] = cls
         return cls
 
-    def _inherited(self, type: str, chain: _Chain) -> _MessageClass:
-        """The parent's class, or as a last resort one that a peer has defined."""
+    def _inherited(self, type: str, chain: Chain) -> MessageClass:
+        """The class of the parent; if it has none, one that a peer has defined."""
         try:
             if self.parent is None:
                 raise self._not_found(type, ("msg",), chain)
-            with self._searched_too():
+            # Locks are taken from a store to its parent, and never the other way.
+            with self._searched_too(), self.parent._lock:
                 return self.parent._load(type, chain)
         except MessageNotFoundError:
             for (name, _), cls in self._definitions.items():
@@ -355,7 +415,7 @@ class MessageStore:
     def _overrides(self, types: Iterable[str]) -> bool:
         return any(self._source("msg", type) is not None for type in types)
 
-    def _load_srv(self, type: str) -> _ServiceClass:
+    def _load_srv(self, type: str) -> ServiceClass:
         source = self._source("srv", type)
         if source is None:
             if self.parent is None:
@@ -369,19 +429,43 @@ class MessageStore:
             spec = inherited._spec
         else:
             spec = parse_service(type, source[0], path=source[1])
-        return _build_service(spec, self._load)
+        return build_service(spec, self._load)
+
+    def _load_action(self, type: str) -> ActionClass:
+        source = self._source("action", type)
+        if source is None:
+            if self.parent is None:
+                raise self._not_found(type, ("action",))
+            with self._searched_too():
+                inherited = self.parent.load_action(type)
+            spec = inherited._spec
+        else:
+            inherited = None
+            spec = parse_action(type, source[0], path=source[1])
+        messages = {suffix: self._load(f"{type}{suffix}", (type,)) for suffix in spec.messages}
+        if inherited is not None and all(
+            getattr(inherited, suffix) is cls for suffix, cls in messages.items()
+        ):
+            return inherited
+        return build_action(spec, messages)
 
     def _not_found(
-        self, type: str, kinds: tuple[Kind, ...], chain: _Chain = ()
+        self, type: str, kinds: tuple[Kind, ...], chain: Chain = ()
     ) -> MessageNotFoundError:
         files = ", ".join(f".{kind}" for kind in kinds)
+        others = [
+            f".{kind}"
+            for kind in KINDS
+            if kind not in kinds and self._source(kind, type) is not None
+        ]
+        hint = f", which has a {' and a '.join(others)}" if others else ""
         return MessageNotFoundError(
-            f"no definition ({files}) of {type}{_needed_by(chain)}", self.places()
+            f"no definition ({files}) of {type}{hint}{needed_by(chain)}", self.places()
         )
 
     @contextmanager
     def _searched_too(self) -> Iterator[None]:
-        """What the parent does not find was looked for here before."""
+        """If the parent does not find a type, the error names the places of this store too."""
         try:
             yield
         except MessageNotFoundError as error:
@@ -390,81 +474,39 @@ class MessageStore:
             raise
 
 
-def _remember(
-    definitions: dict[tuple[str, str], _MessageClass], key: tuple[str, str], cls: _MessageClass
-) -> None:
-    """Keep a definition, and drop the oldest: peers send them, and one may have no end of them."""
-    while len(definitions) >= _MAX_DEFINITIONS:
-        del definitions[next(iter(definitions))]
-    definitions[key] = cls
+def _remember(kept: dict[Any, _V], key: Any, value: _V) -> None:
+    """Keep a value, and drop the oldest: peers send definitions, and one may send any number."""
+    while len(kept) >= _MAX_DEFINITIONS:
+        del kept[next(iter(kept))]
+    kept[key] = value
 
 
-def _needed_by(chain: _Chain) -> str:
-    return f", needed by {' -> '.join(chain)}" if chain else ""
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"
 
 
-def _module(kind: Kind, type: str) -> str:
-    return f"aioros1.{kind}.{type.partition('/')[0]}"
+def _genpy(cls: object, name: str) -> Any:
+    """A class attribute by genpy's name, or None."""
+    return getattr(cls, name, None)
 
 
-_Load: TypeAlias = Callable[[str, _Chain], _MessageClass]
-
-
-def _build(spec: MessageSpec, load: _Load, chain: _Chain, *, kind: Kind = "msg") -> _MessageClass:
-    """Make a class, with ``load`` for the types of its fields."""
-    chain = (*chain, spec.type)
-    if len(chain) > _MAX_DEPTH:
-        raise MessageSpecError(f"types nested over {_MAX_DEPTH} deep", path=chain[0])
-    nested = {}
-    for name in spec.dependencies:
-        if name in chain:
-            circle = " -> ".join((*chain[chain.index(name) :], name))
-            raise MessageSpecError(f"a type that contains itself: {circle}", path=spec.type)
-        nested[name] = load(name, chain)
-    specs = {name: cls._spec for name, cls in nested.items()}
-    sums = {name: cls._md5sum for name, cls in nested.items()}
-    return make_message_class(
-        spec,
-        nested,
-        md5sum=digest.md5sum(spec, specs.__getitem__, sums),
-        module=_module(kind, spec.type),
-    )
-
-
-def _build_service(spec: ServiceSpec, load: _Load) -> _ServiceClass:
-    request = _build(spec.request, load, (spec.type,), kind="srv")
-    response = _build(spec.response, load, (spec.type,), kind="srv")
-    return _service(spec, request, response)
-
-
-def _join_service(type: str, request: _MessageClass, response: _MessageClass) -> _ServiceClass:
-    """A service from its two messages, whose texts are all there is of a definition."""
-    text = f"{request._spec.text}---\n{response._spec.text}"
-    return _service(ServiceSpec(type, request._spec, response._spec, text), request, response)
-
-
-def _service(spec: ServiceSpec, request: _MessageClass, response: _MessageClass) -> _ServiceClass:
-    lookup = specs_of([request, response]).__getitem__
-    return make_service_class(
-        spec,
-        request,
-        response,
-        md5sum=digest.md5sum(spec, lookup),
-        full_text=digest.full_text(spec, lookup),
-        module=_module("srv", spec.type),
-    )
+def _not_a_type(kind: str, value: Any) -> TypeError:
+    """The error for what is not the type of a message, service or action."""
+    name = _genpy(value, "_type")
+    if not isinstance(name, str):
+        got = describe(value)
+    elif not isinstance(value, type):
+        got = f"a message of {name}: hand over its class"
+    elif issubclass(value, AnyAction):
+        got = f"the action class {name}"
+    elif _genpy(value, "_request_class") is not None:
+        got = f"the service class {name}"
+    else:
+        got = f"the message class {name}"
+    return TypeError(f"expected {kind} class or 'package/Type', got {got}")
 
 
 # -- the store that is used when none is named ----------------------------------------
-
-
-@cache
-def default_store() -> MessageStore:
-    """The store of the environment, the installed ROS and the bundle.
-
-    The classes in :mod:`aioros1.msg` and its siblings are those of this store.
-    """
-    return standard_store()
 
 
 def standard_store(paths: Iterable[str | os.PathLike[str]] = ()) -> MessageStore:
@@ -474,16 +516,27 @@ def standard_store(paths: Iterable[str | os.PathLike[str]] = ()) -> MessageStore
     return store
 
 
-def load_msg(type: str) -> _MessageClass:
+_default_store: Final = standard_store()  # reads nothing before it is asked for a type
+
+
+def default_store() -> MessageStore:
+    """The store of the environment, the installed ROS and the bundle.
+
+    The classes in :mod:`aioros1.msg` and its siblings are those of this store.
+    """
+    return _default_store
+
+
+def load_msg(type: str) -> MessageClass:
     """:meth:`MessageStore.load_msg` of the default store."""
     return default_store().load_msg(type)
 
 
-def load_srv(type: str) -> _ServiceClass:
+def load_srv(type: str) -> ServiceClass:
     """:meth:`MessageStore.load_srv` of the default store."""
     return default_store().load_srv(type)
 
 
-def load_action(type: str) -> type[AnyAction]:
+def load_action(type: str) -> ActionClass:
     """:meth:`MessageStore.load_action` of the default store."""
     return default_store().load_action(type)

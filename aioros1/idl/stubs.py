@@ -1,7 +1,7 @@
-"""Stubs: what type checkers and editors know of classes that are made at run time.
+"""Writes stubs: what type checkers and editors know of classes that are made at run time.
 
-``python -m aioros1.idl.stubs`` writes those of the definitions that come with the library
-anew; ``aioros1 stubs`` writes those of other packages.
+``python -m aioros1.idl.stubs`` writes the stubs of the definitions that come with the
+library; ``aioros1 stubs`` writes those of other packages.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ from pathlib import Path, PurePosixPath
 from typing import Literal, TypeAlias
 
 from aioros1.errors import MessageError
+from aioros1.idl.building import ACTION_SUFFIXES
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.message import Message
 from aioros1.idl.modules import names_of
 from aioros1.idl.paths import KINDS, Kind, bundle
 from aioros1.idl.spec import Constant, ConstantValue, Field
-from aioros1.idl.store import ACTION_SUFFIXES, MessageStore
+from aioros1.idl.store import MessageStore
+from aioros1.idl.structure import Structure
 
 __all__ = ["HEADER", "Layout", "Stubs", "bundled_store", "bundled_stubs", "write_stubs"]
 
@@ -27,13 +29,13 @@ HEADER = "# Made by aioros1 from message definitions. Change those, and have it 
 _WIDTH = 100
 
 Layout: TypeAlias = Literal["aioros1", "importer"]
-"""By which name the modules of a package are imported, and so where their stubs are.
+"""How the modules of a package are imported, and so where their stubs are.
 
-``aioros1``: ``aioros1.msg.pkg``, in the library itself. ``importer``: ``pkg.msg``.
+``aioros1``: as ``aioros1.msg.pkg``, in the library itself. ``importer``: as ``pkg.msg``.
 """
 
-# By the kind of an element: its type; what is accepted in place of it; the attribute that
-# holds an array of such; what is accepted in place of that.
+# By the kind of an element: its type, what is accepted for it, the attribute that holds an
+# array of it, and what is accepted for that.
 _TYPES: dict[str, tuple[str, str, str, str]] = {
     "int": ("_b.int", "_t.Int", "_t.IntArray", "_t.Ints"),
     "float": ("_b.float", "_t.Float", "_t.FloatArray", "_t.Floats"),
@@ -55,15 +57,15 @@ def bundled_store() -> MessageStore:
 class Stubs:
     """Writes the stubs of packages of a store.
 
-    Whatever a stub names beside the definition begins with an underscore, as no field, type
-    or constant does: a field may be called ``list``, ``Time`` or ``type``.
+    All names in a stub that are not from the definition begin with an underscore: a field
+    may be called ``list``, ``Time`` or ``type``, but none begins with an underscore.
     """
 
     def __init__(self, store: MessageStore, layout: Layout) -> None:
         self._store = store
         self._layout: Layout = layout
         self.referred: set[str] = set()
-        """The packages beyond the bundle whose messages were referred to so far."""
+        """The packages outside of the bundle whose messages the stubs so far refer to."""
 
     def files(self, package: str) -> dict[PurePosixPath, str]:
         """The stubs of a package, by path. There are none if it has no definitions.
@@ -91,11 +93,11 @@ class Stubs:
         return f"{package}.{kind}" if self._layout == "importer" else f"aioros1.{kind}.{package}"
 
     def _path(self, package: str, kind: Kind) -> PurePosixPath:
-        # A directory even for one file: pyright warns of a stub without code beside it,
-        # but takes a directory for code.
+        # A directory even for one file: pyright warns of a stub that has no code beside it,
+        # but accepts a directory.
         return PurePosixPath(*self._name(package, kind).split("."), "__init__.pyi")
 
-    def _home(self, cls: type[Message]) -> str:
+    def _home(self, cls: type[Structure]) -> str:
         """The module in which checkers find the class of a message."""
         package = cls._type.partition("/")[0]
         if _is_bundled(cls._type, cls._md5sum, "msg"):
@@ -104,7 +106,7 @@ class Stubs:
         return self._name(package, "msg")
 
     def _is_alias(self, type: str, md5sum: str, kind: Kind) -> bool:
-        """Whether a class that is to be written is one of the bundle by another name."""
+        """Whether a class is one of the bundle under another name."""
         return self._layout == "importer" and _is_bundled(type, md5sum, kind)
 
     def _add_messages(self, package: str, module: _Module) -> None:
@@ -147,7 +149,7 @@ class Stubs:
 
 @cache
 def _is_bundled(type: str, md5sum: str, kind: Kind) -> bool:
-    """Whether the library comes with this very definition."""
+    """Whether the library comes with exactly this definition."""
     store = bundled_store()
     try:
         found = store.load_srv(type) if kind == "srv" else store.load_msg(type)
@@ -157,9 +159,9 @@ def _is_bundled(type: str, md5sum: str, kind: Kind) -> bool:
 
 
 class _Module:
-    """One stub while it is written."""
+    """A stub that is being written."""
 
-    def __init__(self, home: Callable[[type[Message]], str]) -> None:
+    def __init__(self, home: Callable[[type[Structure]], str]) -> None:
         self._home = home
         self._imports: set[str] = set()
         self._taken: list[str] = []
@@ -175,14 +177,14 @@ class _Module:
         blocks = ["\n".join(standard), "\n".join([*ours, *self._taken]), classes]
         return HEADER + "\n\n".join(filter(None, blocks)).rstrip("\n") + "\n"
 
-    def reference(self, cls: type[Message]) -> str:
-        """The class of a message, in this stub or another; both by way of their module."""
+    def reference(self, cls: type[Structure]) -> str:
+        """The expression for the class of a message, in this stub or another."""
         module = self._home(cls)
         self._imports.add(module)
         return f"{_alias(module)}.{cls.__name__}"
 
     def take(self, module: str, *names: str) -> None:
-        """Have the names of another module here, too."""
+        """Import names from another module into this one."""
         self._taken += [f"from {module} import {name} as {name}" for name in names]
 
     def add_class(self, head: str, body: Sequence[str]) -> None:
@@ -203,7 +205,7 @@ class _Module:
         )
 
     def _types(self, cls: type[Message], field: Field) -> tuple[str, str]:
-        """The type of a field's attribute, and what the field may be given as."""
+        """The type of the attribute of a field, and of what is accepted for it."""
         builtin = BUILTINS.get(field.base_type)
         if builtin is None:
             types = _of_class(self.reference(cls._nested[field.base_type]))
@@ -224,14 +226,14 @@ def _alias(module: str) -> str:
 
 def _constant(constant: Constant) -> str:
     value = _literal(constant.value)
-    # There are no literal types of floats, whatever mypy makes of them.
+    # There are no literal types of floats, even though mypy infers them.
     is_exact = value and not isinstance(constant.value, float)
     of = "" if is_exact else f"[_b.{type(constant.value).__name__}]"
     return f"{constant.name}: _ty.Final{of}{value and f' = {value}'}{_override(constant.name)}"
 
 
 def _literal(value: ConstantValue) -> str:
-    """The value as Python code; nothing where that would be hard to read, or is not possible."""
+    """The value as Python code; empty where that is impossible or hard to read."""
     if isinstance(value, str):
         is_plain = value.isprintable() and not {'"', "\\"} & set(value)
         return f'"{value}"' if is_plain and len(value) < _WIDTH // 2 else ""
@@ -239,18 +241,18 @@ def _literal(value: ConstantValue) -> str:
 
 
 def _override(name: str) -> str:
-    """What keeps checkers quiet where a field or constant hides a method of all messages."""
+    """The comment for checkers where a field or constant hides a method of messages."""
     return "  # type: ignore[assignment]  # pyright: ignore" if name in vars(Message) else ""
 
 
 def _constructor(parameters: Sequence[tuple[str, str]]) -> list[str]:
-    """All values by position, or any by name."""
+    """``__init__`` with all values by position, or any of them by name."""
     this = "_self" if "self" in dict(parameters) else "self"
     if not parameters:
         return [f"def __init__({this}) -> None: ..."]
     named = [this, "*", *(f"{n}: {t} = ..." for n, t in parameters if not iskeyword(n))]
     if any(iskeyword(name) for name, _ in parameters):
-        # No parameter can have such a name, but `**fields` gives it a value.
+        # No parameter can have such a name, but `**fields` can hold a value for it.
         named = [*(named if len(named) > 2 else [this]), "**_others: _ty.Any"]
     placed = [this, *(f"{'_' * iskeyword(n)}{n}: {t}" for n, t in parameters), "/"]
     return [
@@ -262,7 +264,7 @@ def _constructor(parameters: Sequence[tuple[str, str]]) -> list[str]:
 
 
 def _listing(head: str, items: Sequence[str], tail: str) -> str:
-    """In one line, or in one for each item."""
+    """All items in one line, or one line for each."""
     line = f"{head}{', '.join(items)}{tail}"
     if len(line) <= _WIDTH - 4:
         return line
@@ -273,7 +275,7 @@ def _listing(head: str, items: Sequence[str], tail: str) -> str:
 
 
 def bundled_stubs() -> dict[PurePosixPath, str]:
-    """The stubs that come with the library, by path beside the package ``aioros1``."""
+    """The stubs that come with the library, by paths relative to the parent of ``aioros1``."""
     stubs = Stubs(bundled_store(), "aioros1")
     files: dict[PurePosixPath, str] = {}
     for package in bundled_store().packages():
@@ -282,10 +284,11 @@ def bundled_stubs() -> dict[PurePosixPath, str]:
 
 
 def write_stubs(files: Mapping[PurePosixPath, str], directory: Path) -> list[Path]:
-    """Write stubs below a directory; the paths of those that are new or have changed.
+    """Write stubs below a directory; gives the paths of those that are new or changed.
 
-    A package that has code keeps its ``__init__.py`` to itself. Raises
-    :class:`FileExistsError`, with nothing written, for a file that is not one of ours.
+    A package that has an ``__init__.py`` gets no stub for that. Raises
+    :class:`FileExistsError`, before anything is written, if a file is in the way that was
+    not made by aioros1.
     """
     texts = {
         directory / path: text

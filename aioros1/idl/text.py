@@ -1,14 +1,12 @@
-"""Messages for people: ``repr`` and the YAML-like text that rostopic shows."""
+"""Shows messages: their ``repr``, and the YAML-like text that rostopic prints."""
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from aioros1.idl.structure import Structure
 from aioros1.time import Duration, Time
-
-if TYPE_CHECKING:
-    from aioros1.idl.message import Message
 
 __all__ = ["message_repr", "message_text", "quote"]
 
@@ -30,12 +28,12 @@ _ESCAPES = {
     "\u2029": "\\P",
 }
 _UNSAFE = re.compile(r'[^ -~]|["\\]')
-# Strings that YAML reads as strings without quotes; not all of them, but most names.
+# Strings that need no quotes in YAML; not all of them, but most names.
 _PLAIN = re.compile(r"[A-Za-z_/](?:(?!: |:\Z| #)[ -~])*(?<! )\Z")
 _WORDS = frozenset({"yes", "no", "true", "false", "on", "off", "null"})
 
 
-def message_repr(message: Message) -> str:
+def message_repr(message: Structure) -> str:
     """``Type(field=value, ...)``."""
     fields = []
     for name in message.__slots__:
@@ -46,7 +44,7 @@ def message_repr(message: Message) -> str:
 
 
 def message_text(message: Any, indent: str = "") -> str:
-    """One line per field, as genpy prints messages; nested ones are indented."""
+    """One line for each field, as genpy prints messages; nested messages are indented."""
     lines = [
         f"{indent}{name}: {_text(getattr(message, name, None), indent + '  ')}"
         for name in message.__slots__
@@ -99,7 +97,7 @@ def _list(values: list[Any] | tuple[Any, ...], indent: str) -> str:
 
 
 def _item(value: Any) -> str:
-    """A string in a list: without quotes where it needs none."""
+    """A string in a list, without quotes if it needs none."""
     if not isinstance(value, str):
         return str(value)
     if _PLAIN.match(value) and value.lower() not in _WORDS:

@@ -1,9 +1,8 @@
-"""What generated code calls for values that are not of the usual kind.
+"""What generated code calls for values that are not of the usual class.
 
-The generated encoders handle the class that a field holds by default inline and come
-here for all others. Each function returns what can be packed or joined, and raises some
-exception for what does not fit: which, does not matter, as the encoder then has
-:mod:`.check` look for the cause and word it.
+Generated encoders handle the usual class of a field inline, and call these functions for
+all others. Each returns what can be packed or joined, and raises some exception for what
+does not fit. Which exception does not matter: :mod:`.check` then finds the cause.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from collections.abc import Set as AbstractSet
 from math import inf, isinf
 from typing import Any, Final
 
-from aioros1.time import Duration, Time
+from aioros1.time import Duration, Time, raw_duration, raw_time
 
 __all__ = [
     "as_bool",
@@ -43,11 +42,11 @@ __all__ = [
 
 LITTLE: Final = sys.byteorder == "little"
 BULK: Final = 16384
-"""Payloads of at least this many bytes are worth a part of their own. Copying 16 KiB
-takes about half a microsecond, as much as one more buffer costs in a vectored write."""
+"""Payloads of at least this many bytes get a part of their own. Copying 16 KiB takes about
+half a microsecond, and so does one more buffer in a vectored write."""
 
 _REMEMBERED: Final = 4096
-"""Octets of a list of strings that are kept to be compared with the next list."""
+"""Lists of strings of up to this many bytes are kept, to be compared with the next list."""
 
 _unpack_length = struct.Struct("<I").unpack_from
 _pack_length = struct.Struct("<I").pack
@@ -57,21 +56,21 @@ _BOOLS = b"\0\1"
 
 
 def as_time(value: Any) -> Time:
-    """Anything with whole ``secs`` and ``nsecs``, such as genpy's."""
+    """Takes anything with integers ``secs`` and ``nsecs``, such as genpy's."""
     if isinstance(value, Duration):
         raise TypeError("a duration is not a time")
-    return Time._raw(value.secs.__index__(), value.nsecs.__index__())
+    return raw_time(value.secs.__index__(), value.nsecs.__index__())
 
 
 def as_duration(value: Any) -> Duration:
-    """Anything with whole ``secs`` and ``nsecs``, such as genpy's."""
+    """Takes anything with integers ``secs`` and ``nsecs``, such as genpy's."""
     if isinstance(value, Time):
         raise TypeError("a time is not a duration")
-    return Duration._raw(value.secs.__index__(), value.nsecs.__index__())
+    return raw_duration(value.secs.__index__(), value.nsecs.__index__())
 
 
 def as_bool(value: Any) -> bool:
-    """True, False, 0, 1 and NumPy's booleans."""
+    """Takes True, False, 0, 1 and NumPy's booleans."""
     if type(value).__module__ == "numpy" and hasattr(value, "item"):
         value = value.item()
     if value is True or value is False:
@@ -83,9 +82,9 @@ def as_bool(value: Any) -> bool:
 
 
 def as_text(value: Any) -> bytes:
-    """Subclasses of str, and bytes, which stand for themselves."""
+    """Takes subclasses of str, and bytes, which are sent as they are."""
     if isinstance(value, str):
-        return str.encode(value)  # not the value's own, which may be anything
+        return str.encode(value)  # not the method of the value, which may do anything
     if isinstance(value, (bytes, bytearray)):
         return bytes(value)
     raise TypeError("neither str nor bytes")
@@ -99,7 +98,7 @@ def as_text_escaped(value: Any) -> bytes:
 
 
 def as_list(value: Any) -> Sequence[Any]:
-    """A sequence of anything: list, tuple, range, a NumPy array, but no string."""
+    """Takes any sequence, such as a list, tuple, range or NumPy array, but no string."""
     if isinstance(value, (list, tuple)):
         return value
     if isinstance(value, (str, bytes, bytearray, AbstractSet, dict)):
@@ -115,14 +114,14 @@ def as_list(value: Any) -> Sequence[Any]:
 
 
 def as_message(value: Any) -> Any:
-    """A message of a type without fields: there is nothing that could be missing."""
+    """Takes any message, for a type without fields: none can be missing."""
     if not hasattr(type(value), "_md5sum"):
         raise TypeError("not a message")
     return value
 
 
 def as_octets(value: Any) -> bytes | bytearray | memoryview:
-    """The value of a ``uint8[]``: bytes-like, or a sequence of 0 to 255."""
+    """Takes the value of a ``uint8[]``: bytes-like, or a sequence of 0 to 255."""
     if isinstance(value, (bytes, bytearray)):
         return value
     if isinstance(value, (list, tuple)):
@@ -137,7 +136,7 @@ def as_octets(value: Any) -> bytes | bytearray | memoryview:
 
 
 def as_bools(value: Any) -> bytes:
-    """The octets of a ``bool[]``."""
+    """The bytes of a ``bool[]``."""
     if isinstance(value, (list, tuple)):
         try:
             octets = bytes(value)
@@ -151,7 +150,7 @@ def as_bools(value: Any) -> bytes:
 
 
 def pack_strings(values: Any) -> bytes:
-    """The elements of a ``string[]``."""
+    """The bytes of the elements of a ``string[]``."""
     parts: list[bytes] = []
     add = parts.append
     for value in values:
@@ -162,38 +161,46 @@ def pack_strings(values: Any) -> bytes:
 
 
 def string_packer() -> Callable[[Any], bytes]:
-    """A :func:`pack_strings` for one field, which remembers what it packed last.
+    """Make a :func:`pack_strings` for one field, which remembers what it packed last.
 
-    Lists of names are mostly the same from one message to the next, and comparing lists
-    of the same strings costs a tenth of packing them.
+    Lists of names are mostly the same from one message to the next, and comparing two
+    lists of the same strings takes a tenth of the time of packing one.
     """
-    last: tuple[Any, bytes] = ([], b"")
+    # Threads share this: it is read once, and replaced as a whole.
+    last: tuple[list[str], bytes] = ([], b"")
 
     def pack(values: Any) -> bytes:
         nonlocal last
-        if values == last[0]:
-            return last[1]
-        octets = pack_strings(values)
-        # Other lists may be equal to one that has more in it than strings.
-        if len(octets) <= _REMEMBERED and {str}.issuperset(map(type, values)):
-            last = list(values), octets
+        known, octets = last
+        if values == known:
+            return octets
+        # A copy is packed, so that what is remembered is what was packed even if another
+        # thread changes the list meanwhile.
+        items = list(values)
+        octets = pack_strings(items)
+        # Only strings: objects of other classes may be equal and yet packed differently.
+        if len(octets) <= _REMEMBERED and {str}.issuperset(map(type, items)):
+            last = items, octets
         return octets
 
     return pack
 
 
 def string_reader(escape: bool) -> Callable[[bytes, int, int, int], tuple[list[str], int]]:
-    """A function that reads the strings of one field, and remembers what it read last.
+    """Make a function that reads the strings of one field, and remembers what it read last.
 
-    It takes the data, the position, the end and the number of strings, and gives the list
-    and the position behind it. Running out of data is some exception.
+    The function takes the data, the position, the end and the number of strings, and gives
+    the list and the position behind it. It raises some exception if there is too little
+    data.
     """
+    # Threads share this: it is read once, and replaced as a whole.
     last: tuple[int, bytes, list[str]] = (0, b"", [])
 
     def read(data: bytes, pos: int, end: int, count: int) -> tuple[list[str], int]:
         nonlocal last
-        if count == last[0] and data.startswith(last[1], pos, end):
-            return last[2].copy(), pos + len(last[1])
+        number, block, known = last
+        if count == number and data.startswith(block, pos, end):
+            return known.copy(), pos + len(block)
         texts: list[str] = []
         add = texts.append
         start = pos
@@ -224,25 +231,25 @@ def pack_strings_escaped(values: Any) -> bytes:
 
 
 def pack_times(values: Any) -> bytes:
-    """The elements of a ``time[]``."""
+    """The bytes of the elements of a ``time[]``."""
     parts = []
     for value in values:
         time = value if value.__class__ is Time else as_time(value)
-        parts.append(_pack_time(time._secs, time._nsecs))
+        parts.append(_pack_time(time.secs, time.nsecs))
     return b"".join(parts)
 
 
 def pack_durations(values: Any) -> bytes:
-    """The elements of a ``duration[]``."""
+    """The bytes of the elements of a ``duration[]``."""
     parts = []
     for value in values:
         duration = value if value.__class__ is Duration else as_duration(value)
-        parts.append(_pack_duration(duration._secs, duration._nsecs))
+        parts.append(_pack_duration(duration.secs, duration.nsecs))
     return b"".join(parts)
 
 
 def _shape(code: str) -> tuple[str, int]:
-    """Kind and size of the items of a buffer; letters differ between platforms."""
+    """Kind and size of the items of a buffer; what a letter means depends on the platform."""
     if code in ("f", "d"):
         kind = "float"
     elif code in ("b", "h", "i", "l", "q", "n"):
@@ -255,9 +262,9 @@ def _shape(code: str) -> tuple[str, int]:
 
 
 def as_numbers(code: str) -> Callable[[Any], array[Any] | memoryview]:
-    """The function that makes a wire-ready buffer for arrays of one numeric type.
+    """The function that makes buffers as on the wire for arrays of one numeric type.
 
-    What it returns has the number of elements as its length, and is little-endian.
+    A buffer is little-endian, and its length is the number of elements.
     """
     shape = _shape(code)
 
@@ -272,7 +279,7 @@ def as_numbers(code: str) -> Callable[[Any], array[Any] | memoryview]:
         letter = view.format[len(order) :]
         if view.ndim != 1:
             raise TypeError("not one-dimensional")
-        # `<l` has the size that the letter has in the standard, `l` the one it has here.
+        # `<l` has the standard size of the letter, `l` the size on this platform.
         size = struct.calcsize(order + letter) if _shape(letter)[1] else 0
         if (_shape(letter)[0], size) != shape:
             raise TypeError(f"a buffer of other items: {view.format!r}")
@@ -289,23 +296,23 @@ def as_numbers(code: str) -> Callable[[Any], array[Any] | memoryview]:
 
 
 def to_wire(numbers: array[Any]) -> array[Any]:
-    """Swap the bytes of a fresh array where the machine is not little-endian."""
+    """Swap the bytes of a new array if the machine is not little-endian."""
     if not LITTLE:
         numbers.byteswap()
     return numbers
 
 
 def load_array(code: str, octets: Any) -> array[Any]:
-    """The array whose little-endian octets these are."""
+    """The array of the numbers in these little-endian bytes."""
     numbers: array[Any] = array(code)
     numbers.frombytes(octets)
     return to_wire(numbers)
 
 
 def number_array(code: str, items: Sequence[Any]) -> array[Any]:
-    """A native array of these numbers; any exception for one that does not fit."""
+    """A native array of these numbers; raises some exception if one does not fit."""
     numbers: array[Any] = array(code, items)
-    # array() rounds what is too large for a float32 to infinity; struct refuses it.
+    # array() makes infinity of what is too large for a float32; struct refuses it.
     if code == "f" and (inf in numbers or -inf in numbers):
         for item, number in zip(items, numbers, strict=True):
             if isinf(number) and not isinf(item):
@@ -314,7 +321,7 @@ def number_array(code: str, items: Sequence[Any]) -> array[Any]:
 
 
 def own_memory(view: memoryview) -> bytes | array[Any]:
-    """What a decoder that copies would have made in place of a view."""
+    """A copy of a view, as a decoder that copies makes it."""
     if view.format == "B":
         return view.tobytes()
     numbers: array[Any] = array(view.format)
@@ -323,9 +330,9 @@ def own_memory(view: memoryview) -> bytes | array[Any]:
 
 
 def collect(parts: Sequence[Any]) -> list[bytes | memoryview]:
-    """The same octets in fewer parts: small ones joined, large immutable ones as they are.
+    """The same bytes in fewer parts: small parts are joined, large ones stand alone.
 
-    What the caller could still change is copied, once.
+    Large parts that are immutable are not copied; what could still change is copied once.
     """
     result: list[bytes | memoryview] = []
     small: list[Any] = []
@@ -339,7 +346,7 @@ def collect(parts: Sequence[Any]) -> list[bytes | memoryview]:
             if view.nbytes < BULK:
                 small.append(part)
                 continue
-            # Only the memory of a bytes object can never change.
+            # Only the memory of a bytes object never changes.
             part = view.cast("B") if view.obj.__class__ is bytes else view.tobytes()
         if small:
             result.append(b"".join(small))

@@ -17,7 +17,7 @@ __all__: list[str] = []
 
 install_finder()
 
-if not TYPE_CHECKING:  # checkers read the stubs, and would believe in any name
+if not TYPE_CHECKING:  # checkers read the stubs; with this they would accept any name
 
     def __getattr__(name: str) -> object:
         return package_module(__name__, name)

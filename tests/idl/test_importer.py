@@ -74,7 +74,7 @@ def test_a_package_has_its_modules() -> None:
     assert std_msgs.msg.String(data="x").data == "x"
     assert std_srvs.srv.SetBool._type == "std_srvs/SetBool"
     assert not hasattr(std_msgs, "srv")
-    with pytest.raises(AttributeError, match="of std_msgs there are only message definitions"):
+    with pytest.raises(AttributeError, match="there are only message definitions of std_msgs"):
         _ = std_msgs.node
     with pytest.raises(ModuleNotFoundError, match=r"'std_msgs\.srv'"):
         importlib.import_module("std_msgs.srv")

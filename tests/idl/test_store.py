@@ -9,7 +9,16 @@ from typing import Any
 import pytest
 
 from aioros1.errors import InvalidNameError, MessageNotFoundError, MessageSpecError
-from aioros1.idl import MessageStore, default_store, load_action, load_msg, load_srv
+from aioros1.idl import (
+    Action,
+    Message,
+    MessageStore,
+    Service,
+    default_store,
+    load_action,
+    load_msg,
+    load_srv,
+)
 
 
 def write(root: Path, **files: str) -> Path:
@@ -345,12 +354,83 @@ class TestResolving:
         names = ("_type", "_md5sum", "_request_class", "_response_class")
         assert store.resolve_srv(type("S", (), {n: getattr(known, n) for n in names})) is known
 
-    @pytest.mark.parametrize("value", [5, None, int, object()])
+    def test_actions(self) -> None:
+        store = MessageStore()
+        fibonacci = load_action("actionlib_tutorials/Fibonacci")
+        assert store.resolve_action("actionlib_tutorials/Fibonacci") is fibonacci
+        assert store.resolve_action(fibonacci) is fibonacci
+        # As in rospy: by the message that has goal, result and feedback in it.
+        assert store.resolve_action(fibonacci.Action) is fibonacci
+        names = ("_type", "_md5sum", "_full_text")
+        attributes = {name: getattr(fibonacci.Action, name) for name in names}
+        attributes["__slots__"] = list(fibonacci.Action.__slots__)
+        foreign = type("FibonacciAction", (), attributes)
+        assert store.resolve_action(foreign) is fibonacci
+
+    def test_foreign_actions_that_are_not_known(self) -> None:
+        other = MessageStore()
+        other.add_text("p/Do", "int32 a\n---\nint32 b\n---\nint32 c\n")
+        known = other.load_action("p/Do")
+        store = MessageStore()
+        action = store.resolve_action(known.Action)
+        assert (action._type, action._md5sum) == ("p/Do", known._md5sum)
+        assert action._full_text.rstrip() == "int32 a\n---\nint32 b\n---\nint32 c"
+        assert (action.Goal, action.ActionGoal) == (known.Goal, known.ActionGoal)
+        assert store.resolve_action(known.Action) is action
+
+    def test_messages_that_look_like_those_of_actions(self) -> None:
+        store = MessageStore()
+        parts = ("goal", "result", "feedback")
+        store.add_text("p/NoAction", "".join(f"int8 action_{part}\n" for part in parts))
+        with pytest.raises(MessageSpecError, match="nothing in it is a p/NoActionGoal"):
+            store.resolve_action(store.load_msg("p/NoAction"))
+
+    @pytest.mark.parametrize("value", [5, None, int, object(), Message, Service, Action])
     def test_anything_else(self, value: Any) -> None:
-        with pytest.raises(TypeError, match="neither a message class nor"):
-            MessageStore().resolve_msg(value)
-        with pytest.raises(TypeError, match="neither a service class nor"):
-            MessageStore().resolve_srv(value)
+        store = MessageStore()
+        for resolve, kind in (
+            (store.resolve_msg, "a message"),
+            (store.resolve_srv, "a service"),
+            (store.resolve_action, "an action"),
+        ):
+            with pytest.raises(TypeError, match=f"^expected {kind} class or 'package/Type', got "):
+                resolve(value)
+
+    def test_the_class_of_another_kind(self) -> None:
+        store = MessageStore()
+        message, service = load_msg("std_msgs/String"), load_srv("std_srvs/SetBool")
+        action = load_action("actionlib_tutorials/Fibonacci")
+        for resolve, value, got in (
+            (store.resolve_msg, service, "the service class std_srvs/SetBool"),
+            (store.resolve_msg, action, "the action class actionlib_tutorials/Fibonacci"),
+            (store.resolve_srv, message, "the message class std_msgs/String"),
+            (store.resolve_action, message, "the message class std_msgs/String"),
+            (store.resolve_msg, message(data="x"), "a message of std_msgs/String"),
+        ):
+            with pytest.raises(TypeError, match=got):
+                resolve(value)
+
+    def test_names_of_another_kind(self) -> None:
+        for store in (MessageStore(), default_store()):
+            with pytest.raises(
+                MessageNotFoundError,
+                match=r"^no definition \(\.msg\) of std_srvs/SetBool, which has a \.srv; searched",
+            ):
+                store.resolve_msg("std_srvs/SetBool")
+        with pytest.raises(InvalidNameError, match="'String' is not the name of a type"):
+            MessageStore().resolve_msg("String")
+
+
+def test_repr(tmp_path: Path) -> None:
+    store = MessageStore(tmp_path)
+    assert repr(store) == f"<MessageStore: {tmp_path}, 0 types loaded>"
+    store.add_text("p/T", "int32 x")
+    store.load_msg("p/T")
+    assert repr(store) == f"<MessageStore: {tmp_path}, 1 added text, 1 type loaded>"
+    many = MessageStore([f"/dir{number}" for number in range(5)])
+    assert repr(many) == "<MessageStore: /dir0, /dir1, 3 more directories, 0 types loaded>"
+    assert repr(default_store()).startswith("<MessageStore: the standard places, ")
+    assert repr(MessageStore()) == "<MessageStore: no directories, 0 types loaded>"
 
 
 class TestServices:
