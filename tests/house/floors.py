@@ -71,7 +71,7 @@ know each other."""
 FACADE_FROM = "master"
 """The lowest entry that may import the package itself, ``aioros1``, which names everything."""
 
-PUBLIC_ONLY = ("script", "contrib", "testing", *LAYERS, "cli", "__main__")
+PUBLIC_ONLY = ("script", "contrib", "testing", *LAYERS, "cli")
 """Entries that use what users use."""
 
 BUNDLED = ("msg", "srv", "action")
