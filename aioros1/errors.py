@@ -29,6 +29,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from os import PathLike
 
+from aioros1._public import public
+
 __all__ = [
     "ClosedError",
     "DeserializationError",
@@ -50,18 +52,22 @@ __all__ = [
 ]
 
 
+@public
 class RosError(Exception):
     """The base of all errors of this library."""
 
 
+@public
 class InvalidNameError(RosError, ValueError):
     """A graph resource name or a ``pkg/Type`` that ROS does not allow."""
 
 
+@public
 class MessageError(RosError):
     """Something is wrong with a message, a service or their definition."""
 
 
+@public
 class MessageNotFoundError(MessageError, LookupError):
     """No definition of that type in any of the places searched.
 
@@ -80,6 +86,7 @@ class MessageNotFoundError(MessageError, LookupError):
         return f"{self.text}; searched: {', '.join(self.places) or 'no directory'}"
 
 
+@public
 class MessageSpecError(MessageError):
     """A definition cannot be read.
 
@@ -95,18 +102,22 @@ class MessageSpecError(MessageError):
         super().__init__(f"{place}: {text}" if place else text)
 
 
+@public
 class SerializationError(MessageError):
     """A value does not fit its field; the text begins with the field's path."""
 
 
+@public
 class DeserializationError(MessageError):
     """The bytes are not a message of this type."""
 
 
+@public
 class Md5MismatchError(MessageError):
     """Two sides, or two roles of one node, mean different definitions by one name."""
 
 
+@public
 class MasterError(RosError):
     """The master refused a request.
 
@@ -125,6 +136,7 @@ class MasterError(RosError):
         return f"{self.status} (code {self.code})"
 
 
+@public
 class MasterUnreachable(MasterError, ConnectionError):
     """Nobody answers as a master at the master's URI."""
 
@@ -135,6 +147,7 @@ class MasterUnreachable(MasterError, ConnectionError):
         return self.status
 
 
+@public
 class PeerError(RosError):
     """Another node refused a request of the slave API; as :class:`MasterError`."""
 
@@ -148,6 +161,7 @@ class PeerError(RosError):
         return f"{self.status} (code {self.code})"
 
 
+@public
 class PeerUnreachable(PeerError, ConnectionError):
     """Nobody answers at a node's URI."""
 
@@ -158,6 +172,7 @@ class PeerUnreachable(PeerError, ConnectionError):
         return self.status
 
 
+@public
 class HandshakeError(RosError):
     """A TCPROS connection could not be agreed on.
 
@@ -174,6 +189,7 @@ class HandshakeError(RosError):
         return f"{self.peer}: {self.text}"
 
 
+@public
 class ServiceError(RosError):
     """A service call failed; ``text`` is what the server said."""
 
@@ -182,13 +198,16 @@ class ServiceError(RosError):
         self.text = text
 
 
+@public
 class ServiceNotFound(ServiceError):
     """The master knows no provider of that service."""
 
 
+@public
 class ServiceUnavailable(ServiceError, ConnectionError):
     """The provider cannot be reached, or was lost before it answered."""
 
 
+@public
 class ClosedError(RosError):
     """The node or the role was closed before, or while, the operation ran."""

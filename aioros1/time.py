@@ -11,6 +11,8 @@ from operator import index
 from time import time_ns
 from typing import Any, ClassVar, Final, TypeVar, overload
 
+from aioros1._public import public
+
 __all__ = ["Duration", "Time", "raw_duration", "raw_time"]
 
 _SECOND: Final = 1_000_000_000
@@ -143,6 +145,7 @@ def _raw_value(cls: type[_V], secs: int, nsecs: int) -> _V:
     return cls._raw(secs, nsecs)
 
 
+@public
 class Time(_TimeValue):
     """A point in time: seconds and nanoseconds since the epoch (1970, UTC).
 
@@ -214,6 +217,7 @@ class Time(_TimeValue):
         return NotImplemented
 
 
+@public
 class Duration(_TimeValue):
     """A signed length of time.
 

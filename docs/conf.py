@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import builtins
+import re
 import sys
 from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from sphinx.pycode import ModuleAnalyzer
+
 import aioros1
+import aioros1.testing
+from aioros1._public import HOMES
 
 project = "aioros1"
 author = "The aioros1 developers"
@@ -55,5 +60,30 @@ def _find_by_end(app: Any, env: Any, node: Any, content: Any) -> Any:
     )
 
 
+def _read_sources(app: Any) -> None:
+    """Descriptions of attributes are read from the source of the module that a class shows.
+    That is the one it is imported from; here they are moved there from where it is written."""
+    for path, module in list(sys.modules.items()):
+        if path.partition(".")[0] == "aioros1":
+            for name in getattr(module, "__all__", ()):
+                getattr(module, name)  # which imports it, where that waits for its use
+    for path, home in HOMES.items():
+        shown, _, name = path.rpartition(".")
+        target, source = (ModuleAnalyzer.for_module(module) for module in (shown, home))
+        target.analyze()
+        source.analyze()
+        own = re.compile(rf"{name}(\..+)?")
+        for (scope, attribute), text in source.attr_docs.items():
+            if own.fullmatch(scope):
+                target.attr_docs[scope, attribute] = text
+        for tag, order in source.tagorder.items():
+            if own.fullmatch(tag):
+                target.tagorder[tag] = order
+        for tag, signatures in source.overloads.items():
+            if own.fullmatch(tag):
+                target.overloads[tag] = signatures
+
+
 def setup(app: Any) -> None:
+    app.connect("builder-inited", _read_sources)
     app.connect("missing-reference", _find_by_end)

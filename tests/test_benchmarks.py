@@ -242,3 +242,21 @@ def test_a_report_into_a_page_without_its_place(tmp_path: Path) -> None:
     done = write_report(tmp_path, {"suites": {}})
     assert done.returncode == 1
     assert "performance.md has no <!-- growth --> ... <!-- end growth -->" in done.stderr
+
+
+def test_the_ways_through_the_code_are_counted() -> None:
+    command = [sys.executable, str(RUN.parent / "ways.py"), "publish"]
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONWARNINGS"}
+    environment["PYTHONPATH"] = str(RUN.parents[1])
+    table = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    *_, row = table.stdout.splitlines()
+    calls, files, moves, returns = (int(cell) for cell in row.split("|")[2:-1])
+    assert calls > moves >= files - 1
+    assert returns == moves - (files - 1)
+    traced = subprocess.run(
+        [*command, "--trace"], env=environment, capture_output=True, text=True, check=True
+    )
+    name, first, *others = traced.stdout.splitlines()
+    assert name == "publish:"
+    assert first.split()[1] == "Publisher.publish"
+    assert len(others) == calls - 1

@@ -26,7 +26,11 @@ pytestmark = pytest.mark.skipif(
 )
 
 
-@pytest.mark.parametrize("name", [name for name in SCENARIOS if name != "churn"])
+ELSEWHERE = {"churn", "two-loops"}
+"""Those with a test of their own: here, and in ``test_two_loops.py``."""
+
+
+@pytest.mark.parametrize("name", [name for name in SCENARIOS if name not in ELSEWHERE])
 async def test_what_is_promised_is_kept(name: str) -> None:
     scenario = SCENARIOS[name]
     seen = await scenario.run(scenario.quick)

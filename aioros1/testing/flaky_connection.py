@@ -11,6 +11,7 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
+from aioros1._public import public
 from aioros1.testing.flow import ROOM, Direction, Faults, Flow
 from aioros1.waiting import Waiters
 
@@ -87,6 +88,7 @@ def directions(direction: Directions) -> tuple[Direction, ...]:
     return (direction,)
 
 
+@public("aioros1.testing")
 class FlakyConnection(Flaky):
     """One connection of a client, through the proxy, to the server.
 

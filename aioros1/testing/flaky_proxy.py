@@ -11,6 +11,7 @@ from dataclasses import replace
 from types import TracebackType
 from typing import Any, Self
 
+from aioros1._public import public
 from aioros1.errors import ClosedError
 from aioros1.net.hosts import resolve, uri_host
 from aioros1.testing.flaky_connection import (
@@ -31,6 +32,7 @@ Script = Callable[[FlakyConnection], Awaitable[object]]
 _GONE_BEFORE = (errno.ECONNABORTED, errno.EINTR)
 
 
+@public("aioros1.testing")
 class FlakyProxy(Flaky):
     """A TCP proxy before ``host`` and ``port``, that does to connections what it is told.
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+from aioros1._public import public
 from aioros1.testing.flaky_proxy import FlakyProxy, Script
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ __all__ = ["NodeProxies", "proxies_before"]
 _NETWORK = ipaddress.ip_network("127.0.0.0/8")
 
 
+@public("aioros1.testing")
 @dataclass(frozen=True, slots=True)
 class NodeProxies:
     """The two proxies before a node; to both, "up" is towards the node."""
@@ -36,6 +38,7 @@ class NodeProxies:
         self.tcpros.cut()
 
 
+@public("aioros1.testing")
 @contextlib.asynccontextmanager
 async def proxies_before(node: Node, *, script: Script | None = None) -> AsyncIterator[NodeProxies]:
     """Stand between ``node`` and everybody who connects to it.

@@ -10,9 +10,18 @@ from soak.scenarios import (
     many_nodes,
     master_restarts,
     stalled_peers,
+    two_loops,
 )
 
 __all__ = ["SCENARIOS"]
 
-MODULES = (master_restarts, cut_connections, lossless, many_nodes, stalled_peers, churn)
+MODULES = (
+    master_restarts,
+    cut_connections,
+    lossless,
+    many_nodes,
+    stalled_peers,
+    two_loops,
+    churn,
+)
 SCENARIOS: dict[str, Scenario] = {module.SCENARIO.name: module.SCENARIO for module in MODULES}
