@@ -311,7 +311,9 @@ async def test_closing_takes_no_longer_than_its_timeout_when_the_master_hangs(ma
 
 async def test_a_start_that_is_cancelled_frees_everything(hung_master):
     before = listening_ports()
-    node = aioros1.Node("node", master_uri=f"http://127.0.0.1:{hung_master.port}/", host="localhost")
+    node = aioros1.Node(
+        "node", master_uri=f"http://127.0.0.1:{hung_master.port}/", host="localhost"
+    )
     starting = asyncio.create_task(node.start())
     await hung_master.accept()
     ports = listening_ports() - before

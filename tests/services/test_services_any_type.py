@@ -104,9 +104,7 @@ async def test_a_provider_of_another_type_comes_after(make_node):
 
 
 @contextlib.asynccontextmanager
-async def provider_that_says(
-    node: aioros1.Node, *rows: str | None
-) -> AsyncIterator[asyncio.Event]:
+async def provider_that_says(node: aioros1.Node, *rows: str | None) -> AsyncIterator[asyncio.Event]:
     """A registered provider that answers every header with ``rows``, or not at all.
 
     The event is set once the first header is there.
