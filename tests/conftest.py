@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import sys
 from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 
 import pytest
 from blockbuster import blockbuster_ctx
+from hypothesis import HealthCheck, settings
 
 import aioros1
+
+from .suites import ONCE, SLOW, is_listed
 
 # The plugin that comes with the package. Where the package is installed, pytest has loaded it
 # already, by another name; from which place, the interpreter's path decides, as for all of it.
@@ -26,9 +30,28 @@ except ImportError:  # it is not made for every system
 else:
     LOOPS["uvloop"] = uvloop.new_event_loop
 
+# How long an example takes, depends on what else the machine does.
+settings.register_profile(
+    "any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("any machine")
+
+HERE = Path(__file__).parent
 PATH_FUNCTIONS = {"crawled", "directories", "find", "packages", "types"}
 # What the real programs do on the wire, and several hosts, does not depend on our loop.
-ONE_LOOP = {Path(__file__).parent / name for name in ("interop", "hosts")}
+ONE_LOOP = {HERE / name for name in ("interop", "hosts")}
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if HERE not in item.path.parents:
+            continue
+        file = item.path.relative_to(HERE).as_posix()
+        test = getattr(item, "originalname", None) or item.name
+        if is_listed(SLOW, file, test):
+            item.add_marker(pytest.mark.slow)
+        if is_listed(ONCE, file, test):
+            item.add_marker(pytest.mark.once)
 
 
 def pytest_asyncio_loop_factories(
@@ -53,6 +76,16 @@ def pytest_runtest_makereport(
     return report
 
 
+@pytest.fixture(scope="session", autouse=True)
+def interruptible() -> Iterator[None]:
+    """A shell's background job ignores SIGINT, and so would the programs that tests start."""
+    previous = signal.getsignal(signal.SIGINT)
+    if previous is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, previous)
+
+
 @pytest.fixture(autouse=True)
 def clean_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     """No test depends on the ROS that is, or is not, set up in the shell."""
@@ -65,8 +98,8 @@ def nothing_blocks(request: pytest.FixtureRequest) -> Iterator[None]:
     """The library makes no blocking call in the event loop, but to read small files once:
     definitions, from a local disk, and what the system says of itself, from its memory.
     """
-    here = Path(__file__).parent / "hosts"  # where the library is in other processes
-    if not request.node.get_closest_marker("asyncio") or here in request.path.parents:
+    elsewhere = HERE / "hosts"  # where the library is in other processes
+    if not request.node.get_closest_marker("asyncio") or elsewhere in request.path.parents:
         yield
         return
     with blockbuster_ctx("aioros1") as blockbuster:

@@ -30,7 +30,7 @@ from aioros1.xmlrpc.master_proxy import MasterProxy
 
 ROOT = Path(aioros1.__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-PATIENCE = 20.0
+PATIENCE = 40.0
 
 # The code does not depend on the loop, and this file is about the code.
 one_loop = pytest.mark.asyncio(loop_factories=["asyncio"])

@@ -25,7 +25,7 @@ from aioros1.net.hosts import bind_sockets
 
 ROOT = Path(aioros1.__file__).parents[1]
 EXAMPLES = ROOT / "examples"
-PATIENCE = 20.0
+PATIENCE = 40.0
 
 # What a process does, does not depend on the loop of the test that watches it.
 pytestmark = [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import os
 import sys
 import threading
 from collections import OrderedDict
@@ -15,6 +16,9 @@ from aioros1.log.file import log_to_file
 from aioros1.time import Duration
 
 __all__ = ["NodeLog", "SparseLog", "logger_name"]
+
+# How logging itself tells its own frames from those of its users.
+_LOGGING = os.path.normcase(logging.addLevelName.__code__.co_filename)
 
 _SITES = 1000
 """Places in the code that are remembered. A program has fewer, unless it makes code."""
@@ -150,7 +154,7 @@ def _site(stacklevel: int) -> Hashable:
     frame: FrameType | None = sys._getframe(1)
     while frame is not None and frame.f_back is not None and stacklevel:
         frame = frame.f_back
-        if frame.f_code.co_filename != logging._srcfile:
+        if frame.f_code.co_filename != _LOGGING:
             stacklevel -= 1
     assert frame is not None
     return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from aioros1.errors import SerializationError
+from aioros1.idl.codec import codec_of
 from aioros1.idl.message_from import message_from
 
 if TYPE_CHECKING:
@@ -42,23 +43,23 @@ class Side:
 def providers_side(service_class: type[Service[Any, Any]]) -> Side:
     """Requests come in, responses go out."""
     response_class = service_class._response_class
+    requests, responses = codec_of(service_class._request_class), codec_of(response_class)
 
     def outgoing(value: Any, fields: Mapping[str, Any]) -> Any:
         return message_from(response_class, value, fields)
 
-    decode = service_class._request_class._decode
-    return Side(decode, response_class, response_class._frame, outgoing)
+    return Side(requests.decode, response_class, responses.frame, outgoing)
 
 
 def callers_side(service_class: type[Service[Any, Any]]) -> Side:
     """Requests go out, responses come in."""
     request_class = service_class._request_class
+    requests, responses = codec_of(request_class), codec_of(service_class._response_class)
 
     def outgoing(value: Any, fields: Mapping[str, Any]) -> Any:
         return message_from(request_class, value, fields, "request")
 
-    decode = service_class._response_class._decode
-    return Side(decode, request_class, request_class._frame, outgoing)
+    return Side(responses.decode, request_class, requests.frame, outgoing)
 
 
 def raw_side(what: str) -> Side:

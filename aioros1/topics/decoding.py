@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from weakref import WeakKeyDictionary
 
 from aioros1.errors import DeserializationError, InvalidNameError, MessageError
+from aioros1.idl.codec import codec_of
 from aioros1.net.topic_links import IncomingLink, Received
 
 if TYPE_CHECKING:
@@ -41,7 +42,8 @@ def _raw(item: Received) -> bytes:
 
 def _decoder_of(cls: type[Message], views: bool) -> Decoder:
     """Small frames lie in bytes, large ones in a view."""
-    small, large, with_views = cls._decode, cls._decode_view, cls._decode_views
+    codec = codec_of(cls)
+    small, large, with_views = codec.decode, codec.decode_view, codec.decode_views
 
     def decode_views(item: Received) -> Any:
         batch, start, stop = item

@@ -12,6 +12,7 @@ from aioros1.clock.timer import Timer
 from aioros1.core.role import Role
 from aioros1.errors import ClosedError
 from aioros1.idl import Message
+from aioros1.idl.codec import codec_of
 from aioros1.idl.message_from import message_from
 from aioros1.net.topic_links import JOIN, Frame
 from aioros1.topics.options import PublisherOptions
@@ -274,9 +275,10 @@ class Publisher(Role, Generic[M]):
 
 def _frame_encoder(cls: type[Message]) -> Callable[[Any], Frame]:
     """What makes the frame of a message: in parts, where copying it would cost more."""
-    if not cls._has_bulk:
-        return cls._frame
-    in_parts = cls._frame_parts
+    codec = codec_of(cls)
+    if not codec.has_bulk:
+        return codec.frame
+    in_parts = codec.frame_parts
 
     def encode(message: Any) -> Frame:
         parts = in_parts(message)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1.core.role import Role
 from aioros1.errors import DeserializationError
+from aioros1.idl.codec import codec_of
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.time import Time
 from aioros1.topics.decoding import Decoder, decoder_for
@@ -83,7 +84,7 @@ class Subscriber(Role, Generic[M]):
         )
         # Where there is nothing to choose, the codec itself: a call less for each message.
         plain = message_class is not None and not options.raw and not options.views
-        self._decode_bytes = message_class._decode if message_class and plain else None
+        self._decode_bytes = codec_of(message_class).decode if message_class and plain else None
         self._queue: deque[Received] = deque()
         self._newest: Received | None = None
         self._arrived = Waiters()

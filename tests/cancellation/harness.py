@@ -18,7 +18,7 @@ T = TypeVar("T")
 TURNS = 12
 """Turns of the loop after which the cancellation comes, at the most."""
 
-PATIENCE = 10.0
+PATIENCE = 30.0
 
 
 @dataclass(frozen=True, slots=True)

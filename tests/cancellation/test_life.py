@@ -18,8 +18,7 @@ from .world import QUIET, World, _files, _tasks
 async def nothing_is_left(tasks, files, world):
     async with asyncio.timeout(5):
         while _tasks() - tasks or len(_files()) > len(files) or world.registered():
-            for pool in world.master._client._http._pools.values():
-                pool.close_idle(float("inf"))
+            world.drop_idle_connections()
             await asyncio.sleep(0.001)
     gc.collect()
     assert not world.failures, world.failures
@@ -53,9 +52,10 @@ async def closed(world):
 
 async def waited_closed(world):
     node = new(world)
-    asyncio.get_running_loop().call_soon(node._shut_down, "enough")
-    await node.start()
+    await asyncio.shield(asyncio.ensure_future(node.start()))
+    closing = asyncio.ensure_future(node.close())
     await node.wait_closed()
+    await closing
 
 
 async def master_entered(world):

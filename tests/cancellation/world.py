@@ -75,7 +75,7 @@ class World:
 
     def registered(self) -> set[tuple[str, str, str]]:
         """All that the master has: (kind, name, node)."""
-        registry = self.master._registry
+        registry = self.master._registry  # for the parameters, which no request lists
         parts = dict(
             zip(("publisher", "subscriber", "service"), registry.system_state()[2], strict=True)
         )
@@ -125,15 +125,7 @@ class World:
             assert (await self.other.call("probe", SetBool, data=True, timeout=5)).success
 
     async def _calm(self) -> None:
-        """Close what is only kept in case that it is needed again."""
-        self.caller_connection_dropped()
-        for client in (self.node._xmlrpc, self.other._xmlrpc, self.master._client):
-            for pool in client._http._pools.values():
-                pool.close_idle(float("inf"))
-
-    def caller_connection_dropped(self) -> None:
-        if self.caller._kept is not None and not self.caller._is_busy:
-            self.caller._drop(self.caller._kept)
+        self.drop_idle_connections()
 
     async def _until(self, holds: Callable[[], bool], what: Callable[[], str]) -> None:
         end = time.monotonic() + 5
@@ -142,6 +134,35 @@ class World:
                 raise AssertionError(what())
             await self._calm()
             await asyncio.sleep(0.0005)
+
+    # All that reaches into the library: what can be neither seen nor, at a chosen turn of the
+    # event loop, made to happen from outside.
+
+    def drop_idle_connections(self) -> None:
+        """Close what is only kept in case it is needed again."""
+        if hasattr(self, "caller") and self.caller._kept and not self.caller._mutex.is_held:
+            self.caller._drop(self.caller._kept)
+        nodes = [self.node, self.other] if hasattr(self, "node") else []
+        for client in (*(node._context.xmlrpc for node in nodes), self.master._client):
+            for pool in client._http._pools.values():
+                pool.close_idle(float("inf"))
+
+    async def no_updates_left(self) -> None:
+        """Take the updates of the followed parameter that nobody has taken."""
+        while self.psub._updates:
+            await anext(self.psub)
+
+    def tell_of_param(self, value: Any) -> None:
+        """The master says that the followed parameter has changed."""
+        self.node._params.updated("/followed", value)
+
+    def tell_of_event(self, event: Any) -> None:
+        """Something has happened that ``node.events()`` tells of."""
+        self.node._context.emit(event)
+
+    def lengthen_turn(self) -> None:
+        """This turn of the loop has lasted so long that publishing must wait for the next."""
+        self.pub._publication.coalescer.sent_much()
 
 
 def flip(request: Any) -> dict[str, Any]:

@@ -17,7 +17,7 @@ import aioros1
 from aioros1.contrib.starlette import node_lifespan
 from aioros1.net.hosts import bind_sockets
 
-PATIENCE = 10
+PATIENCE = 30
 
 
 def node_of(request: Request) -> aioros1.Node:

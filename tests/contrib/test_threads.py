@@ -25,7 +25,7 @@ from aioros1.contrib.threads import NodeThread
 from aioros1.msg.std_msgs import String
 from aioros1.srv.std_srvs import SetBool
 
-PATIENCE = 10.0
+PATIENCE = 30.0
 ROOT = Path(aioros1.__file__).parents[1]
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -22,7 +22,7 @@ from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.master_proxy import MasterProxy
 from aioros1.xmlrpc.server import XmlRpcServer
 
-PATIENCE = 5.0
+PATIENCE = 30.0
 """Seconds until a test that waits gives up; never reached when all is well."""
 
 STRING_MD5 = "992ce8a1687cec8c8bd883ec73ca41d1"
@@ -172,7 +172,7 @@ class Wire:
     async def close(self) -> None:
         self.writer.close()
         with contextlib.suppress(OSError, TimeoutError):
-            async with asyncio.timeout(1):
+            async with asyncio.timeout(PATIENCE):
                 await self.writer.wait_closed()
 
     def abort(self) -> None:

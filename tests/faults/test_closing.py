@@ -68,10 +68,10 @@ async def test_a_loop_over_a_role_ends_when_it_closes(make_node, kind, what):
         collect(role.events() if kind == "events" else role),
     )
     await (role if what == "role" else node).close()
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(PATIENCE):
         assert await asyncio.gather(*loops) == [[], []]
     # And one that begins afterwards ends at once.
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(PATIENCE):
         assert await collect(role.events() if kind == "events" else role) == []
 
 
@@ -80,7 +80,7 @@ async def test_loops_over_the_node_end_with_it(make_node):
     loops = await started(collect(node.events()), collect(node.rate(0.01)))
     changes = asyncio.create_task(collect(node.graph.changes()))
     await node.close()
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(PATIENCE):
         await asyncio.gather(*loops, changes)
 
 
@@ -89,7 +89,7 @@ async def test_a_loop_ends_when_another_node_shuts_this_one_down(make_node):
     sub = await node.subscribe("chatter", String)
     (loop,) = await started(collect(sub))
     await (await other.peer("/node")).shutdown("enough")
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(PATIENCE):
         assert await loop == []
 
 
@@ -121,7 +121,7 @@ async def test_waiting_for_a_role_raises_closed_error(make_node, kind, wait, wha
     (waiting,) = await started(wait(role))
     await (role if what == "role" else node).close()
     with pytest.raises(aioros1.ClosedError):
-        await asyncio.wait_for(waiting, 2)
+        await asyncio.wait_for(waiting, PATIENCE)
 
 
 @pytest.mark.parametrize("how", ["send", "drain"])
@@ -139,7 +139,7 @@ async def test_waiting_for_room_raises_closed_error(make_node, how, what):
         (waiting,) = await started(pub.send(data="more") if how == "send" else pub.drain())
         await (pub if what == "role" else node).close()
         with pytest.raises(aioros1.ClosedError):
-            await asyncio.wait_for(waiting, 5)
+            await asyncio.wait_for(waiting, PATIENCE)
 
 
 @pytest.mark.parametrize("wait", ["wait_for_service", "sleep", "wait_for_message", "call"])
@@ -157,7 +157,7 @@ async def test_waiting_for_something_of_the_node_raises_closed_error(make_node, 
             await anext(provider)
         await node.close()
         with pytest.raises(aioros1.ClosedError):
-            await asyncio.wait_for(waiting, 5)
+            await asyncio.wait_for(waiting, PATIENCE)
 
 
 async def test_a_deferred_call_fails_when_its_provider_closes(make_node):
@@ -281,7 +281,7 @@ async def test_closing_frees_everything_when_the_master_is_gone(make_node, maste
         await wire.read_header()
         await pub.wait_for_subscribers(timeout=5)
         await master.close()
-        async with asyncio.timeout(3):
+        async with asyncio.timeout(PATIENCE):
             await node.close()
         assert await wire.is_closed()
     assert await are_free(ports)
@@ -350,7 +350,7 @@ async def test_a_cancelled_close_goes_on_by_itself(make_node):
         closing.cancel()
         with pytest.raises(asyncio.CancelledError):
             await closing
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(PATIENCE):
             assert await node.wait_closed() == "closed"
     assert node.state == "closed"
     assert await are_free(ports_of(node))
@@ -367,7 +367,7 @@ async def test_aborting_ends_everything_at_once(make_node):
         await wire.read_header()
         node.abort()
         assert not pub.is_open
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(PATIENCE):
             assert await loop == []
             await node.wait_closed()
         assert await wire.is_closed()
@@ -383,7 +383,7 @@ async def test_closing_the_node_from_its_own_service_handler_ends(make_node):
     await node.advertise_service("end", SetBool, handler)
     async with dialled(node, caller_header("/end"), flip_request(True)) as wire:
         await wire.read_header()
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(PATIENCE):
             await node.wait_closed()
         assert await wire.is_closed()
 

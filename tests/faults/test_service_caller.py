@@ -12,6 +12,7 @@ from aioros1.srv.roscpp import SetLoggerLevel
 from aioros1.srv.std_srvs import SetBool
 
 from .peers import (
+    PATIENCE,
     SET_BOOL_MD5,
     WRONG_MD5,
     flip_answer,
@@ -143,7 +144,7 @@ async def test_a_failed_call_leaves_the_persistent_connection_in_use(fake, calle
 async def test_a_provider_that_was_killed_is_an_error_at_once(fake, any_caller, bystander):
     with refusing() as port:
         await fake.register(f"rosrpc://127.0.0.1:{port}")
-        async with asyncio.timeout(2):
+        async with asyncio.timeout(PATIENCE):
             with pytest.raises(aioros1.ServiceUnavailable, match="cannot connect"):
                 await any_caller.call(data=True)
     assert await bystander.is_served()
@@ -413,7 +414,7 @@ async def test_closing_ends_a_call_that_is_still_shaking_hands(fake, make_node, 
     call = caller.send_request(data=True)
     wire = await fake.greeted()
     await (caller if what == "caller" else node).close()
-    async with asyncio.timeout(2):
+    async with asyncio.timeout(PATIENCE):
         with pytest.raises(aioros1.ClosedError):
             await call
     assert await wire.is_closed()

@@ -191,7 +191,7 @@ class Program:
 
     async def reach(self, host: str, port: int) -> None:
         """Connect, and say nothing."""
-        async with asyncio.timeout(2):
+        async with asyncio.timeout(10):
             _, writer = await asyncio.open_connection(host, port)
         writer.close()
         await writer.wait_closed()

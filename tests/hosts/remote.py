@@ -16,7 +16,7 @@ import aioros1
 
 __all__ = ["PATIENCE", "Pending", "Program", "RemoteError"]
 
-PATIENCE = 20.0
+PATIENCE = 40.0
 """Seconds to wait for something that normally takes a fraction of one."""
 
 _SCRIPT = Path(__file__).parent / "program.py"

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from ..interop import debian
-from ..interop.cpp import compile_peer
+from ..interop.cpp import compile_peer, shared_folder
 from ..interop.processes import Process, end_all
 from ..interop.world import PEERS, ROSPY_MODULES
 from .network import Host, Network
 from .remote import Program
 
-pytestmark = [pytest.mark.interop, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.interop, pytest.mark.timeout(300, func_only=True)]
 
 Start = Callable[..., Process]
 
@@ -36,12 +36,9 @@ async def start_on(tmp_path: Path) -> AsyncIterator[Start]:
     await end_all(processes)
 
 
-@pytest.fixture(scope="module")
-def cpp_peer(request: pytest.FixtureRequest) -> Path:
-    cache = getattr(request.config, "cache", None)
-    if cache is not None:
-        return compile_peer(cache.mkdir("aioros1-interop"))
-    return compile_peer(request.getfixturevalue("tmp_path_factory").mktemp("cpp"))
+@pytest.fixture(scope="session")
+def cpp_peer(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return compile_peer(shared_folder(request.config, tmp_path_factory))
 
 
 def ours(net: Network) -> tuple[Host, str, Program]:

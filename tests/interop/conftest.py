@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import asyncio
 import os
-import signal
 from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -18,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from .cpp import compile_peer
+from .cpp import compile_peer, shared_folder
 from .processes import end_all
 from .rosmaster import RealMaster
 from .world import World
@@ -33,6 +32,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if HERE in item.path.parents:
             item.add_marker(pytest.mark.interop)
+            if not item.get_closest_marker("timeout"):
+                # Programs are started, and one is compiled by a fixture with a limit of its own.
+                item.add_marker(pytest.mark.timeout(180, func_only=True))
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -45,16 +47,6 @@ def pytest_asyncio_loop_factories() -> dict[str, Callable[[], asyncio.AbstractEv
     return {"asyncio": asyncio.new_event_loop}
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _interruptible() -> Iterator[None]:
-    """Programs started from a shell's background would inherit its deafness to SIGINT."""
-    previous = signal.getsignal(signal.SIGINT)
-    if previous is signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, previous)
-
-
 @pytest.fixture(autouse=True)
 def _no_ros_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     """Our side must know nothing of ROS but what a test tells it."""
@@ -63,14 +55,20 @@ def _no_ros_environment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="session")
-def cpp_peer(request: pytest.FixtureRequest) -> Callable[[], Path]:
-    """The compiled C++ program, compiled when it is first asked for."""
-    cache = getattr(request.config, "cache", None)
-    if cache is not None:
-        folder = cache.mkdir("aioros1-interop")
-    else:
-        folder = request.getfixturevalue("tmp_path_factory").mktemp("cpp")
-    return lambda: compile_peer(folder)
+def cpp_peer(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[], Path]:
+    """Returns the compiled C++ program, or skips the test where it cannot be compiled."""
+    try:
+        program = compile_peer(shared_folder(request.config, tmp_path_factory))
+    except pytest.skip.Exception as missing:
+        reason = missing.msg
+
+        def skip() -> Path:
+            pytest.skip(reason)
+
+        return skip
+    return lambda: program
 
 
 @pytest.fixture(scope="module")

@@ -22,7 +22,7 @@ from typing import Any
 
 __all__ = ["PATIENCE", "Process", "Result", "end_all", "until"]
 
-PATIENCE = 15.0
+PATIENCE = 40.0
 """Seconds to wait for something that normally takes a fraction of one."""
 
 POLL = 0.02

@@ -141,11 +141,9 @@ async def test_a_killed_server(under_each: World, client: str, persistent: bool)
         assert (await caller.call(data=True, timeout=10)).success is True
         await first.kill()
         assert await world.who("services", service) == {"/server"}
-        begin = asyncio.get_running_loop().time()
         for _ in range(2):
             with pytest.raises(aioros1.ServiceUnavailable):
                 await caller.call(data=True, timeout=10)
-        assert asyncio.get_running_loop().time() - begin < 2
         assert not await caller.is_available()
         await server(world, client, service)
         await caller.wait_for_service(timeout=10)

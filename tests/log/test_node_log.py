@@ -123,10 +123,16 @@ def test_what_cannot_be_formatted_is_left_to_the_handlers(hand, capsys):
 
 
 def test_code_that_is_made_at_run_time_fills_no_memory(hand, caplog):
-    for line in range(3000):
+    def log_at(line):
         exec(compile("\n" * line + "log.once.info('x')", "<made>", "exec"), {"log": hand.log})
+
+    for line in range(3000):
+        log_at(line)
     assert len(caplog.messages) == 3000
-    assert len(hand.log._once._sites) == 1000
+    log_at(2000)
+    assert len(caplog.messages) == 3000
+    log_at(0)  # which it has forgotten
+    assert len(caplog.messages) == 3001
 
 
 def test_once_among_threads(hand, caplog):

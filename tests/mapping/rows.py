@@ -119,10 +119,15 @@ class MappingTest:
     def carries(self, name: str, beginning: str = "") -> bool:
         """Whether the test has ``name`` after that ``beginning`` and, if it has one, whatever
         else. ``…`` stands for anything."""
-        pattern = r"\w*".join(re.escape(part) for part in re.split("…", name.replace(".", "_")))
-        if beginning:
-            pattern = rf"{re.escape(beginning)}\w*{pattern}"
-        return re.search(rf"(?:\b|(?<=_)){pattern}(?:\b|(?=_))", self.words) is not None
+        return _pattern(name, beginning).search(self.words) is not None
+
+
+@cache
+def _pattern(name: str, beginning: str) -> re.Pattern[str]:
+    pattern = r"\w*".join(re.escape(part) for part in re.split("…", name.replace(".", "_")))
+    if beginning:
+        pattern = rf"{re.escape(beginning)}\w*{pattern}"
+    return re.compile(rf"(?:\b|(?<=_)){pattern}(?:\b|(?=_))")
 
 
 @dataclass(frozen=True)
@@ -150,10 +155,10 @@ class Row:
     def tests_of(self, name: str) -> list[str]:
         found = []
         if name != self.names[0]:  # `Free` after `xmlrpcParamInit` is `xmlrpcParamFree`
-            found = [test.place for test in all_tests() if test.carries(name, self.names[0][:4])]
+            found = carriers(name, self.names[0][:4])
         if not found and (name == self.names[0] or name[0].islower() or len(name) > 7):
             # But `String` alone may be anything.
-            found = [test.place for test in all_tests() if test.carries(name)]
+            found = carriers(name)
         return found
 
     @property
@@ -195,6 +200,12 @@ def all_tests() -> tuple[MappingTest, ...]:
         if path.name != "test_rows.py"  # which is about this file, with names for examples
         for test in _tests_of(path)
     )
+
+
+@cache
+def carriers(name: str, beginning: str = "") -> list[str]:
+    """The places of the tests that carry ``name``."""
+    return [test.place for test in all_tests() if test.carries(name, beginning)]
 
 
 def _tests_of(path: Path) -> Iterator[MappingTest]:

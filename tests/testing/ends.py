@@ -10,7 +10,7 @@ import pytest
 
 from aioros1.testing import FlakyConnection, FlakyProxy
 
-PATIENCE = 10.0
+PATIENCE = 30.0
 """Seconds until a test that waits gives up; never reached when all is well."""
 
 
