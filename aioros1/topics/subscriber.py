@@ -83,8 +83,9 @@ class Subscriber(Role, Generic[M]):
             message_class, context.peer_definitions, raw=options.raw, views=options.views
         )
         # Where there is nothing to choose, the codec itself: a call less for each message.
-        plain = message_class is not None and not options.raw and not options.views
-        self._decode_bytes = codec_of(message_class).decode if message_class and plain else None
+        self._decode_bytes: Callable[[bytes, int, int], Any] | None = None
+        if message_class is not None and not options.raw and not options.views:
+            self._decode_bytes = codec_of(message_class).decode
         self._queue: deque[Received] = deque()
         self._newest: Received | None = None
         self._arrived = Waiters()
