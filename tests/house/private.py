@@ -43,6 +43,8 @@ class InsidePython:
     reason: str
 
 
+_HELPERS = "multiprocessing has no public way to the pipes of the helpers that it keeps running"
+
 INSIDE_PYTHON = (
     InsidePython(
         "aioros1.log.node_log",
@@ -53,6 +55,10 @@ INSIDE_PYTHON = (
         "aioros1.testing.leaks",
         "_DummyThread",
         "threads that Python did not start are nobody's leak, and told by nothing else",
+    ),
+    *(
+        InsidePython("aioros1.testing.leaks", name, _HELPERS)
+        for name in ("_fd", "_forkserver", "_forkserver_alive_fd", "_resource_tracker")
     ),
     InsidePython(
         "aioros1.testing.simulated_clock",
@@ -74,7 +80,8 @@ def touched(
     excused = {(one.module, one.name) for one in inside}
     used = set[tuple[str, str]]()
     for module in modules.values():
-        for line, owner, name in _uses(module):
+        uses = [*_uses(module), *(_spelled(module) if module.entry in PUBLIC_ONLY else ())]
+        for line, owner, name in uses:
             if name in own[module.entry] or name in GENPY or name in NAMED_TUPLES:
                 continue
             if (module.name, name) in excused:
@@ -148,6 +155,23 @@ def _uses(module: Module) -> Iterator[tuple[int, str, str]]:
                 for alias in names:
                     if _is_private(alias.name):
                         yield node.lineno, source or ".", alias.name
+
+
+def _spelled(module: Module) -> Iterator[tuple[int, str, str]]:
+    """Private names as text, in a module that takes attributes by names it has in variables."""
+    nodes = list(ast.walk(module.tree))
+    for node in nodes:
+        match node:
+            case ast.Call(func=ast.Name(id=function), args=[_, name, *_]) if (
+                function in _ACCESSORS and not isinstance(name, ast.Constant)
+            ):
+                break
+    else:
+        return
+    for node in nodes:
+        match node:
+            case ast.Constant(value=str(text)) if text.isidentifier() and _is_private(text):
+                yield node.lineno, "object", text
 
 
 def _owner(value: ast.expr) -> str:

@@ -71,6 +71,13 @@ def test_a_local_variable_defines_nothing(tmp_path):
     assert found.startswith("aioros1/net/a.py:2: it._mine ")
 
 
+def test_names_in_a_table_are_found_in_what_stands_on_public_names(tmp_path):
+    text = "NAMES = ['_fd', '_', 'fd']\ndef f(it): return [getattr(it, name) for name in NAMES]"
+    modules = tree_of(tmp_path, testing__leaks=text, idl__factory=text)
+    (found,) = touched(modules, ())
+    assert found.startswith("aioros1/testing/leaks.py:1: object._fd ")
+
+
 def test_single_modules_are_by_themselves(tmp_path):
     modules = tree_of(
         tmp_path, time="class Time:\n    _raw = 1", names="def f(time): return time._raw"
