@@ -266,6 +266,10 @@ class Server(_Side):
     def accept_service(self, caller_id: str, offer: ServiceOffer) -> bytes:
         """The answer to a service caller; raises as :meth:`accept_topic`."""
         self._check_md5sum(f"service {offer.service}", offer.type, offer.md5sum)
+        if offer.md5sum == "*":
+            # A provider of any type is of the type that the caller wants: some look.
+            type = self.header.get("type", "*")
+            offer = ServiceOffer(offer.service, type, self.header["md5sum"])
         # rospy sends `service`, roscpp the two type names; both are understood by both.
         return encode_header(
             {
@@ -284,7 +288,7 @@ class Server(_Side):
 
     def _check_md5sum(self, what: str, type: str, md5sum: str) -> None:
         theirs = self.header["md5sum"]
-        if theirs not in ("*", md5sum):
+        if theirs != md5sum and "*" not in (theirs, md5sum):
             raise self._fail(
                 f"client {self.caller_id} wants {what} as {self.header.get('type', '?')} with "
                 f"md5sum {theirs}, but it is {type} with md5sum {md5sum} here"
