@@ -6,7 +6,6 @@ Pure: nothing here does any networking or needs an event loop.
 from __future__ import annotations
 
 import aioros1.idl.pickling  # noqa: F401 - attaches itself to Message
-from aioros1.idl.codec import GENPY_NAMES, Codec, codec_of
 from aioros1.idl.convert import convert, from_dict, to_dict
 from aioros1.idl.digest import full_text, md5_text, md5sum
 from aioros1.idl.message import AnyMessage, Message
@@ -16,11 +15,9 @@ from aioros1.idl.spec import ActionSpec, Constant, Field, MessageSpec, ServiceSp
 from aioros1.idl.store import MessageStore, default_store, load_action, load_msg, load_srv
 
 __all__ = [
-    "GENPY_NAMES",
     "Action",
     "ActionSpec",
     "AnyMessage",
-    "Codec",
     "Constant",
     "Field",
     "Message",
@@ -28,7 +25,6 @@ __all__ = [
     "MessageStore",
     "Service",
     "ServiceSpec",
-    "codec_of",
     "convert",
     "default_store",
     "from_dict",

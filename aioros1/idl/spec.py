@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from aioros1.idl.builtin_types import HEADER_TYPE, is_builtin
 
@@ -12,8 +11,7 @@ __all__ = ["ActionSpec", "Constant", "ConstantValue", "Field", "MessageSpec", "S
 ConstantValue: TypeAlias = int | float | bool | str
 
 
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(NamedTuple):
     """One field.
 
     ``type`` is as written, but with its package (``geometry_msgs/Point[]``,
@@ -33,8 +31,7 @@ class Field:
         return is_builtin(self.base_type)
 
 
-@dataclass(frozen=True, slots=True)
-class Constant:
+class Constant(NamedTuple):
     """One constant. ``text`` is the value as it is hashed for the MD5 sum."""
 
     name: str
@@ -43,8 +40,7 @@ class Constant:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class MessageSpec:
+class MessageSpec(NamedTuple):
     """The definition of a message; ``text`` is the text that it was read from."""
 
     type: str
@@ -69,8 +65,7 @@ class MessageSpec:
         return tuple(dict.fromkeys(f.base_type for f in self.fields if not f.is_builtin))
 
 
-@dataclass(frozen=True, slots=True)
-class ServiceSpec:
+class ServiceSpec(NamedTuple):
     """The definition of a service, which has two messages."""
 
     type: str
@@ -79,8 +74,7 @@ class ServiceSpec:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class ActionSpec:
+class ActionSpec(NamedTuple):
     """The definition of an action, of which actionlib makes seven messages.
 
     ``messages`` has them by their suffixes: ``Action``, ``ActionGoal``,
