@@ -117,7 +117,7 @@ class Publication:
         stats = publisher.stats
         stats.messages += 1
         coalescer = self.coalescer
-        if coalescer.collecting_in and isinstance(frame, bytes):
+        if coalescer.is_collecting and isinstance(frame, bytes):
             size = len(frame)
             stats.bytes += size
             for link in self._slow:
