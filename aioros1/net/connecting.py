@@ -87,6 +87,8 @@ def _abort(task: asyncio.Task[tuple[asyncio.Transport, P]]) -> None:
 
 
 def _failure(host: str, failures: list[OSError]) -> OSError:
-    if len(failures) == 1:
-        return failures[0]
-    return OSError(", ".join(map(str, failures)) or f"{host} has no address")
+    if not failures:
+        return OSError(f"{host} has no address")
+    if len({error.errno for error in failures}) == 1:
+        return failures[0]  # the same for each address
+    return OSError(", ".join(map(str, failures)))

@@ -24,6 +24,7 @@ __all__ = [
     "local_address",
     "local_address_facing",
     "resolve",
+    "set_keepalive",
     "uri_host",
 ]
 
@@ -63,10 +64,10 @@ def local_address_facing(remote: str) -> str:
     if literal is None:
         raise ValueError(f"expected a numeric address, got {remote!r}")
     family, address = literal
-    with socket.socket(family, socket.SOCK_DGRAM) as probe:
-        probe.setblocking(False)  # nor does it ever wait
-        probe.connect((address, 9))  # the discard port; any would do
-        return str(probe.getsockname()[0])
+    with socket.socket(family, socket.SOCK_DGRAM) as sock:
+        sock.setblocking(False)  # nor does it ever wait
+        sock.connect((address, 9))  # the discard port; any would do
+        return str(sock.getsockname()[0])
 
 
 def local_address() -> str | None:
@@ -128,9 +129,9 @@ def is_local(host: str) -> bool:
     if literal is None:
         return False
     family, address = literal
-    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+    with socket.socket(family, socket.SOCK_DGRAM) as sock:
         try:
-            probe.bind((address, 0))
+            sock.bind((address, 0))
         except OSError:
             return False
         return True
@@ -186,12 +187,17 @@ def bind_sockets(host: str = "0.0.0.0", port: int = 0) -> list[socket.socket]:
     return [sock]
 
 
-def probe(sock: socket.socket, keepalive: tuple[int, int, int]) -> None:
-    """Have the system ask whether the other side of a TCP connection is still there: after so
-    many seconds idle, in intervals of so many seconds, so often."""
+def set_keepalive(sock: socket.socket, idle: int, interval: int, count: int) -> None:
+    """Let the system find out when the other side of a TCP connection is gone.
+
+    After ``idle`` seconds of silence it asks ``count`` times, every ``interval`` seconds.
+    """
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
-    names = ("TCP_KEEPIDLE", "TCP_KEEPINTVL", "TCP_KEEPCNT")
-    for name, value in zip(names, keepalive, strict=True):
+    for name, value in (
+        ("TCP_KEEPIDLE", idle),
+        ("TCP_KEEPINTVL", interval),
+        ("TCP_KEEPCNT", count),
+    ):
         option = getattr(socket, name, None)  # not every system has all three
         if option is not None:
             sock.setsockopt(socket.IPPROTO_TCP, option, value)

@@ -13,7 +13,7 @@ from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
 from aioros1.net.connecting import connect
-from aioros1.net.hosts import probe, uri_host
+from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.wire.http import AnswerReader, HttpError
 
 __all__ = ["HttpClient", "Server", "server_at"]
@@ -235,7 +235,7 @@ class _Connection(asyncio.Protocol):
     def keep_alive(self) -> None:
         """Have the system ask now and then whether the server's machine is still there: a
         request may wait for its answer without a limit of time."""
-        probe(self._transport.get_extra_info("socket"), _KEEPALIVE)
+        set_keepalive(self._transport.get_extra_info("socket"), *_KEEPALIVE)
 
     async def exchange(self, head: bytes, body: bytes, answer: AnswerReader) -> None:
         """Send a request, and wait until ``answer`` is complete.

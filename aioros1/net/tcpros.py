@@ -18,7 +18,8 @@ from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
-from aioros1.net.hosts import bind_sockets, probe, resolve
+from aioros1.net.connecting import connect as connect_tcp
+from aioros1.net.hosts import bind_sockets, set_keepalive
 from aioros1.options import Limits, Timeouts
 
 __all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
@@ -128,25 +129,33 @@ class Stream:
 
 
 async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
-    """A connection to ``host``; each of its addresses is tried in turn.
+    """Connect to whichever address of ``host`` answers first; see :mod:`.connecting`.
 
     Raises :class:`ConnectionError` or :class:`TimeoutError`, both naming host and port.
     """
+    loop = asyncio.get_running_loop()
+    readers: dict[asyncio.BaseProtocol, asyncio.StreamReader] = {}  # a protocol does not keep it
+
+    def stream_protocol() -> asyncio.StreamReaderProtocol:
+        reader = asyncio.StreamReader(loop=loop)
+        protocol = asyncio.StreamReaderProtocol(reader, loop=loop)
+        readers[protocol] = reader
+        return protocol
+
+    # The limit may pass while no address has failed yet, and then the kernel's own timeout
+    # of a connection (which is an OSError, too) must not be taken for it.
+    limit = asyncio.timeout(timeouts.connect)
     try:
-        async with asyncio.timeout(timeouts.connect):
-            failure: OSError | None = None
-            for family, address in await resolve(host, port):
-                try:
-                    reader, writer = await asyncio.open_connection(address, port, family=family)
-                except OSError as error:
-                    failure = error
-                else:
-                    return Stream(reader, writer, timeouts)
-    except TimeoutError:
-        raise TimeoutError(f"no connection to {host}:{port} within {timeouts.connect} s") from None
-    except OSError as error:  # the name could not be resolved
-        failure = error
-    raise ConnectionError(f"cannot connect to {host}:{port}: {failure}") from failure
+        async with limit:
+            transport, protocol = await connect_tcp(stream_protocol, host, port)
+    except OSError as error:
+        if limit.expired():
+            raise TimeoutError(
+                f"no connection to {host}:{port} within {timeouts.connect} s"
+            ) from None
+        raise ConnectionError(f"cannot connect to {host}:{port}: {error}") from error
+    reader = readers[protocol]
+    return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop), timeouts)
 
 
 async def take_over(stream: Stream, protocol: asyncio.BaseProtocol) -> bytes:
@@ -286,7 +295,7 @@ class Listener:
 def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     idle = min(max(timeouts.keepalive, 1), _LONGEST)
-    probe(sock, (round(idle), round(max(idle / _PARTS, 1)), _PROBES))
+    set_keepalive(sock, round(idle), round(max(idle / _PARTS, 1)), _PROBES)
     # While there is data on its way nothing is probed: it is sent again and again, for a
     # quarter of an hour. In milliseconds; where it is set, probes end with it too.
     option = getattr(socket, "TCP_USER_TIMEOUT", None)  # Linux has it
