@@ -7,13 +7,16 @@ makes twice as expensive; docs/design/xmlrpc.md has the figures.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
 from aioros1.net.connecting import connect
 from aioros1.net.hosts import set_keepalive, uri_host
+from aioros1.waiting import Waiters
 from aioros1.wire.http import AnswerReader, HttpError
 
 __all__ = ["HttpClient", "Server", "server_at"]
@@ -24,6 +27,9 @@ enough that a server with a thread per connection is not flooded."""
 
 IDLE = 15.0
 """Seconds after which an idle connection is closed, or up to twice that."""
+
+CLOSING = 5.0
+"""Seconds in which event loops must have told the end of connections that were aborted."""
 
 # Seconds idle, seconds between probes, probes: half a minute in all.
 _KEEPALIVE = (15, 5, 3)
@@ -70,6 +76,7 @@ class HttpClient:
         self._max_bytes = max_bytes
         self._pools: dict[tuple[str, int], _Pool] = {}
         self._open: set[_Connection] = set()
+        self._none_open = Waiters()  # woken when the last connection has ended
         self._sweeper: asyncio.TimerHandle | None = None
 
     async def post(self, server: Server, body: bytes) -> AnswerReader:
@@ -102,9 +109,10 @@ class HttpClient:
             self._sweeper.cancel()
         for connection in self._open:
             connection.abort()
-        while self._open:  # event loops close things in a later turn
-            await asyncio.sleep(0)
-        await asyncio.sleep(0)
+        with contextlib.suppress(TimeoutError):  # nobody can use them any more, at least
+            await self._none_open.wait_until(
+                lambda: not self._open, timeout=CLOSING, what="connections did not close"
+            )
 
     async def _post(self, pool: _Pool, server: Server, body: bytes) -> AnswerReader:
         lost: ConnectionResetError | None = None
@@ -142,7 +150,7 @@ class HttpClient:
     async def _connect(self, pool: _Pool, server: Server) -> _Connection:
         try:
             _, connection = await connect(
-                lambda: _Connection(self._open, pool), server.host, server.port
+                lambda: _Connection(self._ended, pool), server.host, server.port
             )
         except OSError as error:
             raise ConnectionError(f"cannot connect: {error}") from error
@@ -152,6 +160,11 @@ class HttpClient:
             self._open.add(connection)
             connection.keep_alive()
         return connection
+
+    def _ended(self, connection: _Connection) -> None:
+        self._open.discard(connection)
+        if not self._open:
+            self._none_open.wake()
 
     def _sweep(self) -> None:
         """Close what was idle for long, and forget servers that nobody asks any more."""
@@ -200,10 +213,10 @@ class _Connection(asyncio.Protocol):
 
     __slots__ = (
         "_answer",
+        "_ended",
         "_failure",
         "_is_paused",
         "_keeps_alive",
-        "_open",
         "_pool",
         "_transport",
         "_waiter",
@@ -212,8 +225,8 @@ class _Connection(asyncio.Protocol):
 
     _transport: asyncio.Transport
 
-    def __init__(self, open_: set[_Connection], pool: _Pool) -> None:
-        self._open = open_
+    def __init__(self, ended: Callable[[_Connection], None], pool: _Pool) -> None:
+        self._ended = ended
         self._pool = pool
         self._answer: AnswerReader | None = None  # while it is not complete
         self._failure: Exception | None = None
@@ -301,7 +314,7 @@ class _Connection(asyncio.Protocol):
         self._transport = cast("asyncio.Transport", transport)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._open.discard(self)
+        self._ended(self)
         if self in self._pool.idle:
             self._pool.idle.remove(self)
         self._is_paused = False

@@ -7,6 +7,7 @@ and our own client keep a connection per peer and send request after request ove
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import inspect
 import logging
 import zlib
@@ -21,6 +22,7 @@ from aioros1.net.allow import AllowList
 from aioros1.net.hosts import bind_sockets
 from aioros1.net.rate_limit import RateLimit
 from aioros1.options import Limits
+from aioros1.waiting import Waiters
 from aioros1.wire.xmlrpc import (
     XmlRpcError,
     XmlRpcFault,
@@ -43,6 +45,9 @@ Long, because a client that sends just as we close sees its connection reset and
 know whether the request was obeyed; the servers of ROS 1 never close first. Not endless,
 because of peers that vanish without a word.
 """
+
+CLOSING = 5.0
+"""Seconds in which event loops must have told the end of connections that were aborted."""
 
 # The codes of faults are those of the "Specification for Fault Code Interoperability".
 FAULT_PARSE = -32700
@@ -100,6 +105,7 @@ class XmlRpcServer:
         self._http: web.Server | None = None
         self._listeners: list[asyncio.Server] = []
         self._connections: set[Connection] = set()
+        self._connection_ended = Waiters()
         # The requests in progress, and the connections that have had one.
         self._running: set[asyncio.Task[Any]] = set()
         self._serving: set[asyncio.Task[Any]] = set()
@@ -129,6 +135,7 @@ class XmlRpcServer:
         def connection() -> Connection:
             return Connection(
                 self._connections,
+                self._connection_ended,
                 self.admission,
                 http,
                 loop=loop,
@@ -178,12 +185,11 @@ class XmlRpcServer:
         for connection in list(self._connections):
             connection.abort()
         await _cancel(self._serving)
-        # A transport tells its protocol of the end in a later turn of the loop.
-        for _ in range(100):
-            if not self._connections:
-                break
-            await asyncio.sleep(0)
-        await asyncio.sleep(0)
+        # A transport tells its protocol of the end in a later iteration of the loop.
+        with contextlib.suppress(TimeoutError):
+            await self._connection_ended.wait_until(
+                lambda: not self._connections, timeout=CLOSING, what="connections did not close"
+            )
 
     def _sweep(self) -> None:
         """Close what has waited too long for the head of a request; one timer for all."""

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from aiohttp.typedefs import LooseHeaders
 
     from aioros1.net.admission import Admission
+    from aioros1.waiting import Waiters
 
 __all__ = ["Answer", "Connection", "Quiet", "plain"]
 
@@ -90,21 +91,24 @@ class Connection(web.RequestHandler):
     """aiohttp's connection, which knows since when it waits for the rest of a head.
 
     aiohttp itself waits as long for the rest of a request line as for the next request.
-    ``connections`` holds those that are open. One that ``admission`` turns away is none,
+    ``connections`` holds those that are open, and ``ended`` wakes whoever waits for the end
+    of one. One that ``admission`` turns away is none,
     and is closed before anything is read of it.
     """
 
-    __slots__ = ("_admission", "_busy", "_connections", "_gone", "_waits_since", "host")
+    __slots__ = ("_admission", "_busy", "_connections", "_ended", "_gone", "_waits_since", "host")
 
     def __init__(
         self,
         connections: set[Connection],
+        ended: Waiters,
         admission: Admission,
         manager: web.Server,
         **options: Any,
     ) -> None:
         super().__init__(manager, **options)
         self._connections = connections
+        self._ended = ended
         self._admission = admission
         self.host: str | None = None
         """Where it comes from; ``None`` before it is let in."""
@@ -125,6 +129,7 @@ class Connection(web.RequestHandler):
             return
         super().connection_lost(exc)
         self._connections.discard(self)
+        self._ended.wake()
         self._admission.leave(self.host)
         if self._gone is not None and not self._gone.done():
             self._gone.set_result(True)
