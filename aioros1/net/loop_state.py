@@ -81,12 +81,14 @@ class LoopState:
         ran it may call. Raises :class:`RuntimeError`.
         """
         if _get_running_loop() is self.loop:
-            self.thread_id = get_ident()
-        elif self.thread_id != get_ident() or self.loop.is_running():
+            return
+        is_known = self.thread_id != get_ident()
+        if is_known or self.loop.is_running():
+            owner = f"thread {_thread_name(self.thread_id)!r}" if is_known else "another thread"
             raise RuntimeError(
                 f"{what} was called in thread {threading.current_thread().name!r}, but belongs "
-                f"to the event loop in thread {_thread_name(self.thread_id)!r}: use "
-                "loop.call_soon_threadsafe(...) there, or NodeThread.call"
+                f"to the event loop in {owner}: use loop.call_soon_threadsafe(...) there, "
+                "or NodeThread.call"
             )
 
 

@@ -118,7 +118,7 @@ class Publication(Shared[Publishing]):
         stats = publisher.stats
         stats.messages += 1
         coalescer = self.coalescer
-        if coalescer.collecting_in and isinstance(frame, bytes):
+        if coalescer.is_collecting and isinstance(frame, bytes):
             size = len(frame)
             stats.bytes += size
             for link in self._slow:
@@ -217,7 +217,8 @@ class Publication(Shared[Publishing]):
     def _add(self, link: OutgoingLink) -> None:
         """A subscriber has connected: it gets what is latched, then what is published."""
         self._flush()
-        self._open += (link,)
+        if link.is_open:  # or it was paused by its own handshake, and is among the slow ones
+            self._open += (link,)
         self._look()
         for publisher in self.roles:
             if publisher._latched is not None:

@@ -1,7 +1,7 @@
-"""An XML-RPC client for masters and nodes, on kept connections.
+"""An XML-RPC client for masters and nodes, with keep-alive connections.
 
-What the servers of ROS 1 demand of a client: a Content-Length, never a chunked body; a
-path, ``/RPC2`` when the URI has none; and patience with answers that are no XML-RPC.
+The servers of ROS 1 need a Content-Length and no chunked body, and the path ``/RPC2`` if the
+URI has none. Some of their answers are not XML-RPC.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ __all__ = ["XmlRpcClient"]
 
 
 class XmlRpcClient:
-    """Calls methods of XML-RPC servers. Made without a loop; connects when it is used."""
+    """Calls methods of XML-RPC servers. You can create it outside an event loop."""
 
     def __init__(self, *, timeouts: Timeouts | None = None, limits: Limits | None = None) -> None:
         self._timeouts = timeouts if timeouts is not None else Timeouts()
@@ -29,16 +29,16 @@ class XmlRpcClient:
         self._closed = False
 
     async def call(self, uri: str, method: str, *params: Any, timeout: float | None = None) -> Any:
-        """The answer of ``method(*params)`` at ``uri``, whatever it is.
+        """Call ``method(*params)`` at ``uri`` and return the answer, whatever it is.
 
-        ``timeout`` is for the whole call, in seconds; ``Timeouts.xmlrpc`` by default, and
-        infinite for none. Raises
+        ``timeout`` limits the whole call, in seconds; the default is ``Timeouts.xmlrpc``,
+        and ``math.inf`` means no limit. Raises
 
-        - :class:`TimeoutError` when it is over,
-        - :class:`ConnectionError` when nobody can be reached at ``uri``, and
-          :class:`ConnectionResetError` when the connection is lost before the answer,
-        - :class:`.XmlRpcFault` when the server answers with a fault,
-        - :class:`.XmlRpcError` when what it answers is not XML-RPC, or too much,
+        - :class:`TimeoutError` after that time,
+        - :class:`ConnectionError` if the server cannot be reached, and
+          :class:`ConnectionResetError` if the connection is lost before the answer,
+        - :class:`.XmlRpcFault` if the server answers with a fault,
+        - :class:`.XmlRpcError` if the answer is not XML-RPC, or too large,
         - :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for parameters
           that cannot be sent (see :func:`.encode_call`), before anything is sent,
         - :class:`RuntimeError` after :meth:`close`.
@@ -74,7 +74,7 @@ class XmlRpcClient:
             raise XmlRpcError(f"{method} at {uri}: {error}") from None
 
     def close_idle(self) -> None:
-        """Keep no connection that is there now: all of them may be dead."""
+        """Close the connections that are idle now, because they may all be dead."""
         self._http.close_idle()
 
     async def close(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import errno
 import math
 import socket
 import struct
@@ -12,7 +13,7 @@ from collections.abc import AsyncIterator
 import pytest
 
 from aioros1.errors import ClosedError, HandshakeError
-from aioros1.net import tcpros
+from aioros1.net import connecting, tcpros
 from aioros1.net.tcpros import Listener, Stream, connect, connection_info, take_over
 from aioros1.options import Limits, Timeouts
 from aioros1.wire.handshake import Server
@@ -178,10 +179,42 @@ async def test_every_address_of_a_host_is_tried(listening, monkeypatch):
     async def two(host, port=0):
         return [(socket.AF_INET, "127.0.0.3"), (socket.AF_INET, "127.0.0.1")]
 
-    monkeypatch.setattr(tcpros, "resolve", two)
+    monkeypatch.setattr(connecting, "resolve", two)
     stream = await connect("robot", listening.getsockname()[1], Timeouts())
     assert stream.peer.startswith("127.0.0.1:")
     await drop(stream)
+
+
+async def test_an_address_that_is_silent_does_not_hold_up_the_next(listening, monkeypatch):
+    loop = asyncio.get_running_loop()
+    create_connection = loop.create_connection
+
+    async def two(host: str, port: int) -> list[tuple[socket.AddressFamily, str]]:
+        return [(socket.AF_INET, "192.0.2.1"), (socket.AF_INET, "127.0.0.1")]
+
+    async def connection(factory, host, *args, **kwargs):
+        if host == "192.0.2.1":
+            await asyncio.Event().wait()
+        return await create_connection(factory, host, *args, **kwargs)
+
+    monkeypatch.setattr(connecting, "resolve", two)
+    monkeypatch.setattr(connecting, "STAGGER", 0.01)
+    monkeypatch.setattr(loop, "create_connection", connection, raising=False)
+    stream = await connect("robot", listening.getsockname()[1], Timeouts())
+    peer, _ = await loop.sock_accept(listening)
+    with peer:
+        await say(peer, HEADER)
+        await stream.receive_header(server_side(), timeout=5)
+    await drop(stream)
+
+
+async def test_a_timeout_of_the_system_is_a_connection_error(monkeypatch):
+    async def connection(*args, **kwargs):
+        raise OSError(errno.ETIMEDOUT, "Connection timed out")
+
+    monkeypatch.setattr(asyncio.get_running_loop(), "create_connection", connection, raising=False)
+    with pytest.raises(ConnectionError, match=r"cannot connect to 127\.0\.0\.1:1: .*timed out"):
+        await connect("127.0.0.1", 1, Timeouts())
 
 
 @pytest.mark.parametrize("host", ["a..b", "a" * 70, "no such host", ""])
