@@ -20,8 +20,8 @@ QUICK = ("-m", "not slow", "-n", "2", "-q")
 PYTHONS = ["3.11", "3.12", "3.13"]
 
 COVERED = {
-    "lines": ("num_statements", "covered_lines", 0.0),
-    "branches": ("num_branches", "covered_branches", 0.0),
+    "lines": ("num_statements", "covered_lines", 74.0),
+    "branches": ("num_branches", "covered_branches", 60.0),
 }
 """The names of coverage.json for all and for those reached, and the least percentage of these."""
 
