@@ -75,7 +75,7 @@ async def test_nodes(ros_node, make_node):
         other.subscribe("/news", "std_msgs/String") as sub,
     ):
         pub.publish(data="hello")
-        assert (await sub.get(timeout=5)).data == "hello"
+        assert (await sub.get(timeout=30)).data == "hello"
 
 @pytest.mark.asyncio
 async def test_clock(ros_node, ros_clock, no_leaks):
