@@ -271,7 +271,7 @@ async def test_what_a_script_says_in_finally_after_a_signal_arrives(heard, maste
     )
     assert (await heard.get(timeout=15)).msg == "ready"
     process.send_signal(signal.SIGINT)
-    _, errors = await asyncio.wait_for(process.communicate(), 15)
+    _, errors = await asyncio.wait_for(process.communicate(), 40)
     assert (errors, process.returncode) == (b"", 0)
     texts = await texts_until(heard, "main has ended")
     assert [text for text in texts if text.endswith("ended")] == [

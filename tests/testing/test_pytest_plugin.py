@@ -13,7 +13,7 @@ import aioros1
 
 ROOT = Path(aioros1.__file__).parents[1]
 ASYNCIO = "pytest_asyncio.plugin"
-PATIENCE = 50
+PATIENCE = 150
 
 # What is left on purpose is not waited for as long.
 IMPATIENT = """
