@@ -46,7 +46,7 @@ def ports(node: aioros1.Node) -> tuple[int, int]:
 
 
 async def is_answered(wire: Wire) -> bool:
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         return bool(await wire.reader.read(1))
 
 
@@ -68,9 +68,9 @@ async def test_both_ports_of_a_node_turn_away_who_is_not_allowed(make_node, capl
             assert await is_answered(wire)
         listener = await make_node("listener", allow=["127.0.0.0/30"])
         async with listener.subscribe("chatter", String) as sub:
-            await pub.wait_for_subscribers(timeout=5)
+            await pub.wait_for_subscribers(timeout=30)
             pub.publish(data="hi")
-            assert (await sub.get(timeout=5)).data == "hi"
+            assert (await sub.get(timeout=30)).data == "hi"
     assert [record.getMessage() for record in caplog.records if "refused" in record.msg] == [
         f"refused a connection from {ELSEWHERE} to the {port} port: it is not in allow"
         for port in ("TCPROS", "XML-RPC")
@@ -110,7 +110,7 @@ async def test_peers_past_tcp_are_of_this_host_and_allowed(make_node, transport)
         talker.advertise("chatter", String) as pub,
         listener.subscribe("chatter", String) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         assert {info.transport for info in sub.connections} <= {"INTRAPROCESS", "UNIXROS"}
     assert talker.stats.connections_forbidden == 0
 
@@ -160,7 +160,7 @@ async def test_a_host_that_asks_a_master_too_often_delays_only_itself(make_node)
         aioros1.Master("localhost", port=0, rosout=False, limits=limits) as master,
         dialled_from(ELSEWHERE, master.port, GET_PID * 201) as greedy,
     ):
-        await until(lambda: master.stats.requests_delayed == 1)
+        await until(lambda: master.stats.requests_delayed)
         node = await make_node("node", master_uri=master.uri, heartbeat=None)
         await node.set_param("a", 1)
         assert await node.get_param("a") == 1
@@ -183,7 +183,7 @@ async def test_a_node_has_the_same_limits_for_its_slave_api(make_node):
     node = await make_node("node", limits=limits)
     _, xmlrpc = ports(node)
     async with dialled_from(ELSEWHERE, xmlrpc, GET_PID * 4):
-        await until(lambda: node.stats.requests_delayed == 1)
+        await until(lambda: node.stats.requests_delayed)
         async with dialled_from(HERE, xmlrpc, GET_PID) as wire:
             assert await is_answered(wire)
 

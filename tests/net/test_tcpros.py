@@ -35,7 +35,7 @@ async def test_a_header_is_read_and_not_a_byte_beyond_it(pair):
     stream, peer = pair
     await say(peer, HEADER + b"first messages")
     side = server_side()
-    await stream.receive_header(side, timeout=5)
+    await stream.receive_header(side, timeout=30)
     assert side.topic == "/chatter"
     assert await stream.reader.readexactly(14) == b"first messages"
 
@@ -43,7 +43,7 @@ async def test_a_header_is_read_and_not_a_byte_beyond_it(pair):
 async def test_a_header_byte_by_byte(pair):
     stream, peer = pair
     side = server_side()
-    receiving = asyncio.create_task(stream.receive_header(side, timeout=5))
+    receiving = asyncio.create_task(stream.receive_header(side, timeout=30))
     for byte in HEADER:
         await say(peer, bytes([byte]))
         await asyncio.sleep(0)
@@ -63,19 +63,19 @@ async def test_the_end_instead_of_a_header(pair):
     await say(peer, HEADER[:-1])
     peer.close()
     with pytest.raises(ConnectionError, match="connection lost in the handshake"):
-        await stream.receive_header(server_side(), timeout=5)
+        await stream.receive_header(server_side(), timeout=30)
 
 
 async def test_a_length_beyond_the_limit_is_not_waited_for(pair):
     stream, peer = pair
     await say(peer, struct.pack("<I", 1001))
     with pytest.raises(HandshakeError, match="1001 bytes"):
-        await stream.receive_header(server_side(), timeout=5)
+        await stream.receive_header(server_side(), timeout=30)
 
 
 async def test_a_cancelled_handshake_is_a_cancellation(pair):
     stream, _ = pair
-    receiving = asyncio.create_task(stream.receive_header(server_side(), timeout=5))
+    receiving = asyncio.create_task(stream.receive_header(server_side(), timeout=30))
     await asyncio.sleep(0.01)
     receiving.cancel()
     with pytest.raises(asyncio.CancelledError):
@@ -250,7 +250,7 @@ async def test_no_byte_is_lost_when_a_protocol_takes_over(pair, behind):
     stream, peer = pair
     data = bytes(range(256)) * 2000
     saying = asyncio.create_task(say(peer, HEADER + data[:behind]))
-    await stream.receive_header(server_side(), timeout=5)
+    await stream.receive_header(server_side(), timeout=30)
     if behind <= 100_000:  # else the system cannot hold it
         await saying
     await asyncio.sleep(0.01)
@@ -260,7 +260,7 @@ async def test_no_byte_is_lost_when_a_protocol_takes_over(pair, behind):
     await saying
     await say(peer, data[behind:])
     peer.shutdown(socket.SHUT_WR)
-    await asyncio.wait_for(taker.lost, 5)
+    await asyncio.wait_for(taker.lost, 30)
     assert rest + bytes(taker.data) == data
 
 
@@ -268,17 +268,17 @@ async def test_an_end_that_came_before_is_seen_after_taking_over(pair):
     stream, peer = pair
     await say(peer, HEADER + b"rest")
     peer.shutdown(socket.SHUT_WR)
-    await stream.receive_header(server_side(), timeout=5)
+    await stream.receive_header(server_side(), timeout=30)
     await asyncio.sleep(0.01)
     taker = Taker()
     assert await take_over(stream, taker) == b"rest"
-    await asyncio.wait_for(taker.lost, 5)
+    await asyncio.wait_for(taker.lost, 30)
 
 
 async def test_a_connection_that_is_lost_already_cannot_be_taken_over(pair):
     stream, peer = pair
     await say(peer, HEADER)
-    await stream.receive_header(server_side(), timeout=5)
+    await stream.receive_header(server_side(), timeout=30)
     stream.abort()
     with pytest.raises(ConnectionError, match="lost in the handshake"):
         await take_over(stream, Taker())
@@ -332,14 +332,14 @@ async def serving(
 
 async def is_closed_at_once(stream: Stream) -> bool:
     try:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             return await stream.reader.read() == b""
     except ConnectionError:
         return True
 
 
 async def eventually(condition) -> None:
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         while not condition():
             await asyncio.sleep(0.002)
 
@@ -388,7 +388,7 @@ async def test_a_connection_that_is_lost_while_it_is_accepted_takes_no_place(mon
         with socket.create_connection(("127.0.0.1", listener.port)) as sock:
             sock.setblocking(False)
             with contextlib.suppress(ConnectionError):
-                async with asyncio.timeout(5):
+                async with asyncio.timeout(30):
                     assert await asyncio.get_running_loop().sock_recv(sock, 1) == b""
         assert (served.count, listener.admission.open) == (1, 0)
 
