@@ -77,6 +77,7 @@ class Role(ABC):
         is gone, is logged and not raised. When the wait is cancelled, closing goes on.
         """
         if self._is_open:
+            self._context.check_loop()
             self._is_open = False
             self._closing = self._context.spawn(
                 self._finish, name=f"close {self.kind} {self._name}"

@@ -196,6 +196,10 @@ class OutgoingLink(asyncio.Protocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast("asyncio.Transport", transport)
         self._transport.set_write_buffer_limits(high=0)
+        if self.unsent() and self.is_open:
+            # The header alone was more than the kernel took. The transport has told the
+            # protocol of the handshake, and does not tell it again.
+            self.pause_writing()
 
     def data_received(self, data: bytes) -> None:
         """Drop it: a subscriber has nothing to send. rospy drops it, too."""

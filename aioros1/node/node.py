@@ -272,6 +272,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
         Raises the exception that closed it, if one did (``on_error="raise"``).
         """
+        self._context.check_loop()
         await self._supervisor.wait()
         if self._user_errors.failure is not None:
             raise self._user_errors.failure
@@ -397,6 +398,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     def events(self) -> EventStream[Event]:
         """Iterate over what happens to the node from now on; ends with the node."""
+        self._context.check_loop()
         return self._events.subscribe()
 
     # tasks
@@ -462,6 +464,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     async def sleep(self, duration: float | Duration) -> None:
         """Wait for seconds of this node's time. Raises :class:`~aioros1.ClosedError`."""
+        self._context.check_loop()
         await self._context.clock.sleep(duration)
 
     def rate(self, hz: float) -> Rate:
@@ -469,6 +472,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
         Raises :class:`ValueError` for a rate that is not positive.
         """
+        self._context.check_loop()
         return Rate(self._context.clock, period_of(hz))
 
     def timer(
@@ -502,6 +506,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         For whoever drives that. Raises :class:`TimeoutError` after ``timeout`` seconds, and
         :class:`~aioros1.ClosedError`.
         """
+        self._context.check_loop()
         await self._context.clock.wait_until_shows(time.to_nsec(), timeout=timeout)
 
     def __repr__(self) -> str:

@@ -268,8 +268,8 @@ class Server(_Side):
         self._check_md5sum(f"service {offer.service}", offer.type, offer.md5sum)
         if offer.md5sum == "*":
             # A provider of any type is of the type that the caller wants: some look.
-            type = self.header.get("type", "*")
-            offer = ServiceOffer(offer.service, type, self.header["md5sum"])
+            wanted = self.header.get("type", "*")
+            offer = ServiceOffer(offer.service, wanted, self.header["md5sum"])
         # rospy sends `service`, roscpp the two type names; each understands both.
         return encode_header(
             {

@@ -51,7 +51,7 @@ async def call_triple(
         raise refused(-1, what, is_refusal=False) from error
     except (OSError, TimeoutError) as error:
         raise unreachable(str(error)) from error
-    except RuntimeError as error:  # the client is closed, and with it its node
+    except ClosedError as error:  # the client is closed, and with it its node
         raise ClosedError(f"{method} at {uri}: {error}") from error
     if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
         code, status, value = answer

@@ -9,7 +9,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from aioros1.errors import ClosedError
 from aioros1.net.http_client import HttpClient, server_at
+from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
 from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
@@ -27,6 +29,7 @@ class XmlRpcClient:
         self._http = HttpClient(max_bytes=self._limits.xmlrpc_bytes)
         self._deadlines = Deadlines()  # of the calls in progress
         self._closed = False
+        self._loop_state: LoopState | None = None  # of the loop of the first call
 
     async def call(self, uri: str, method: str, *params: Any, timeout: float | None = None) -> Any:
         """Call ``method(*params)`` at ``uri`` and return the answer, whatever it is.
@@ -41,11 +44,15 @@ class XmlRpcClient:
         - :class:`.XmlRpcError` if the answer is not XML-RPC, or too large,
         - :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for parameters
           that cannot be sent (see :func:`.encode_call`), before anything is sent,
-        - :class:`RuntimeError` after :meth:`close`.
+        - :class:`~aioros1.ClosedError` after :meth:`close`,
+        - :class:`RuntimeError` in another thread than the first call.
         """
         body = encode_call(method, params, max_depth=self._limits.xmlrpc_depth)
         if self._closed:
-            raise RuntimeError("the XML-RPC client is closed")
+            raise ClosedError("the XML-RPC client is closed")
+        if self._loop_state is None:
+            self._loop_state = loop_state()
+        self._loop_state.check_thread(method)
         try:
             server = server_at(uri)
         except ValueError:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import socket
 
 import pytest
 
@@ -12,7 +13,7 @@ from aioros1.events import PeerDisconnected
 from aioros1.msg.geometry_msgs import PointStamped
 from aioros1.msg.std_msgs import String
 
-from .peers import PATIENCE, dialled, string, subscriber_header, until
+from .peers import PATIENCE, Wire, dialled, string, subscriber_header, until
 
 
 @pytest.fixture
@@ -355,3 +356,32 @@ async def test_connections_that_come_and_go_leave_nothing(node, open_files):
             await until(lambda: not pub.connections)
         await until(lambda: len(asyncio.all_tasks()) <= tasks)
         await until(lambda: open_files() <= files)
+
+
+async def test_a_connection_that_was_full_before_its_first_message_gets_each_once(make_node):
+    """The header alone may be more than the kernel takes at once."""
+    node = await make_node()
+    headers = {"calibration": "x" * (8 << 20)}
+    options = {"headers": headers, "queue_size": 100, "latch": True}
+    async with node.advertise("chatter", String, **options) as pub:
+        pub.publish(data="latched")
+        host, port = node.tcpros_address
+        with socket.socket() as sock:
+            sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            sock.setblocking(False)
+            loop = asyncio.get_running_loop()
+            await loop.sock_connect(sock, (host, port))
+            await loop.sock_sendall(sock, subscriber_header())
+            await until(lambda: pub.subscriber_count == 1)
+            for number in range(5):
+                pub.publish(data=str(number))
+            reader, writer = await asyncio.open_connection(sock=sock.dup())
+        wire = Wire(reader, writer)
+        assert len((await wire.read_header())["calibration"]) == 8 << 20
+        for number in range(5, 10):
+            pub.publish(data=str(number))
+        got = [await wire.string() for _ in range(11)]
+        assert got == ["latched", *map(str, range(10))], got
+        assert (pub.subscriber_count, pub.dropped) == (1, 0)
+        wire.abort()
+        await wire.close()

@@ -92,6 +92,12 @@ async def test_publishing_while_a_burst_is_collected(make_node):
         lambda node: asyncio.run(_open(node.subscribe_param("/p"))),
         lambda node: asyncio.run(node.call("s", SetBool)),
         lambda node: asyncio.run(node.close()),
+        lambda node: asyncio.run(node.sleep(0)),
+        lambda node: asyncio.run(node.wait_closed()),
+        lambda node: asyncio.run(node.master.get_pid()),
+        lambda node: asyncio.run(node.graph.snapshot()),
+        lambda node: node.events(),
+        lambda node: node.rate(1),
         lambda node: node.timer(1, print),
         lambda node: node.create_task(asyncio.sleep(0)),
     ],
@@ -108,6 +114,7 @@ async def test_whatever_a_node_does(make_node, use):
 
 async def test_roles(make_node):
     node = await make_node()
+    timer = node.timer(3600, print)
     async with (
         node.advertise("chatter", String) as pub,
         node.subscribe("chatter", String) as sub,
@@ -119,6 +126,9 @@ async def test_roles(make_node):
             lambda: asyncio.run(pub.drain()),
             lambda: asyncio.run(sub.get()),
             lambda: sub.get_nowait(),
+            lambda: aiter(sub),
+            lambda: sub.events(),
+            timer.cancel,
             lambda: asyncio.run(caller.call(data=True)),
             *(lambda role=role: asyncio.run(role.close()) for role in (pub, sub, provider, caller)),
         ):
