@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, Self, TypeVar
 from weakref import WeakSet
 
+from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.time import Time
 from aioros1.waiting import Waiters
@@ -26,11 +27,13 @@ __all__ = [
 ]
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class Event:
     """The base of all events of a node."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class RoleRegistered(Event):
     """The master has accepted a role, for the first time or again."""
@@ -40,6 +43,7 @@ class RoleRegistered(Event):
     name: str
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class RoleUnregistered(Event):
     """A role was taken back from the master, or the master could not be told."""
@@ -48,6 +52,7 @@ class RoleUnregistered(Event):
     name: str
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class PeerConnected(Event):
     """A TCPROS connection carries messages now."""
@@ -58,6 +63,7 @@ class PeerConnected(Event):
     connection: ConnectionInfo
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class PeerDisconnected(Event):
     """A TCPROS connection ended."""
@@ -68,6 +74,7 @@ class PeerDisconnected(Event):
     reason: str = ""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class ParamUpdate(Event):
     """A followed parameter, or a part of it, was set or deleted.
@@ -80,6 +87,7 @@ class ParamUpdate(Event):
     value: Any
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class MasterLost(Event):
     """The master has not answered a heartbeat. Topics that flow go on flowing."""
@@ -88,6 +96,7 @@ class MasterLost(Event):
     reason: str
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class MasterRestarted(Event):
     """The master is back, was replaced, or was told that this node has another address; it
@@ -97,6 +106,7 @@ class MasterRestarted(Event):
     run_id: str
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class ClockJumped(Event):
     """The time of the node has jumped: ``/clock`` went backwards, as when a simulation or a
@@ -143,6 +153,7 @@ class Broadcast(Generic[T]):
         return stream
 
 
+@public
 class EventStream(Generic[T]):
     """An asynchronous iterator over the items of a :class:`Broadcast`."""
 

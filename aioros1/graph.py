@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Self
 
+from aioros1._public import public
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
 from aioros1.waiting import deadline
@@ -13,6 +14,7 @@ from aioros1.waiting import deadline
 __all__ = ["Graph", "GraphChange", "GraphChanges", "GraphNode", "GraphSnapshot"]
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class GraphNode:
     """What one node is registered for: names of topics and services."""
@@ -22,6 +24,7 @@ class GraphNode:
     provides: frozenset[str]
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class GraphSnapshot:
     """The graph at one moment, as the master sees it."""
@@ -75,6 +78,7 @@ class GraphSnapshot:
         )
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class GraphChange:
     """What is different from one snapshot to the next."""
@@ -87,6 +91,7 @@ class GraphChange:
     removed: frozenset[tuple[str, str, str]]
 
 
+@public
 class Graph:
     """The graph that a node belongs to: ``node.graph``.
 
@@ -138,6 +143,7 @@ class Graph:
         return snapshot
 
 
+@public
 class GraphChanges:
     """An iterator over the changes of a graph; made by :meth:`Graph.changes`.
 

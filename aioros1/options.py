@@ -6,6 +6,8 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
+from aioros1._public import public
+
 __all__ = [
     "DEFAULT_QUEUE_SIZE",
     "LOCAL_TRANSPORTS",
@@ -34,6 +36,7 @@ DEFAULT_QUEUE_SIZE = 10
 """Messages that wait in the queue of a publisher or a subscriber by default."""
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Timeouts:
     """How long a node waits for others, in seconds."""
@@ -59,6 +62,7 @@ class Timeouts:
     longer, is taken for dead. Whole seconds, at least 1."""
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limits:
     """How much a node or a master accepts from others.
@@ -148,6 +152,7 @@ _KINDS: dict[str, tuple[Any, str]] = {
 }
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeOptions:
     """What a node was made with; see :class:`Node` for the meaning of each."""

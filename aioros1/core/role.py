@@ -8,6 +8,7 @@ from abc import ABC, abstractmethod
 from types import TracebackType
 from typing import Any, Self
 
+from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.stats import RoleStats
@@ -16,6 +17,7 @@ from aioros1.errors import ClosedError
 __all__ = ["Role"]
 
 
+@public
 class Role(ABC):
     """A publisher, subscriber, service provider, service caller or parameter subscriber.
 

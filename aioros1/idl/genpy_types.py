@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+from aioros1._public import public
+
 __all__ = ["GenpyMessage", "GenpyService"]
 
 
+@public
 class GenpyMessage(Protocol):
     """A message of genpy's.
 
@@ -18,6 +21,7 @@ class GenpyMessage(Protocol):
     def serialize(self, buff: Any) -> Any: ...
 
 
+@public
 class GenpyService(Protocol):
     """A service type of genpy's."""
 

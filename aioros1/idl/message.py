@@ -10,6 +10,7 @@ import copy
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar
 
+from aioros1._public import public
 from aioros1.idl.compiled import CODEC, compiled
 from aioros1.idl.convert import arrays_to_numpy, from_dict, to_dict, values_equal
 from aioros1.idl.structure import Structure
@@ -27,6 +28,7 @@ class Writable(Protocol):
     def write(self, data: bytes, /) -> object: ...
 
 
+@public
 class Message(Structure):
     """The base class of all messages.
 

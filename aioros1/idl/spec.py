@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from aioros1._public import public
 from aioros1.idl.builtin_types import HEADER_TYPE, is_builtin
 
 __all__ = ["ActionSpec", "Constant", "ConstantValue", "Field", "MessageSpec", "ServiceSpec"]
@@ -12,6 +13,7 @@ __all__ = ["ActionSpec", "Constant", "ConstantValue", "Field", "MessageSpec", "S
 ConstantValue: TypeAlias = int | float | bool | str
 
 
+@public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class Field:
     """One field.
@@ -33,6 +35,7 @@ class Field:
         return is_builtin(self.base_type)
 
 
+@public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class Constant:
     """One constant. ``text`` is the value as it is hashed for the MD5 sum."""
@@ -43,6 +46,7 @@ class Constant:
     text: str
 
 
+@public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class MessageSpec:
     """The definition of a message; ``text`` is the text that it was read from."""
@@ -69,6 +73,7 @@ class MessageSpec:
         return tuple(dict.fromkeys(f.base_type for f in self.fields if not f.is_builtin))
 
 
+@public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class ServiceSpec:
     """The definition of a service, which has two messages."""
@@ -79,6 +84,7 @@ class ServiceSpec:
     text: str
 
 
+@public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class ActionSpec:
     """The definition of an action, of which actionlib makes seven messages.

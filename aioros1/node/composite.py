@@ -7,12 +7,14 @@ from collections.abc import Coroutine, Generator
 from types import TracebackType
 from typing import Any, Self
 
+from aioros1._public import public
 from aioros1.errors import ClosedError
 from aioros1.node.node import Node
 
 __all__ = ["Composite"]
 
 
+@public
 class Composite:
     """Several roles of one node, with tasks of their own, as one object.
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
+from aioros1._public import public
 from aioros1.core.role import Role
 from aioros1.errors import (
     ClosedError,
@@ -38,6 +39,7 @@ Q = TypeVar("Q")
 A = TypeVar("A")
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServiceCallerOptions:
     """How a caller was opened; the defaults are those of
@@ -57,6 +59,7 @@ class ServiceCallerOptions:
     """Call with serialised bytes alone, whatever the type of the service."""
 
 
+@public
 class PendingCall(asyncio.Task[A]):
     """A call on its way, from :meth:`ServiceCaller.send_request`; await it for the response."""
 
@@ -64,6 +67,7 @@ class PendingCall(asyncio.Task[A]):
     """Counts the calls of one caller. Local: nothing of it is on the wire."""
 
 
+@public
 class ServiceCaller(Role, Generic[Q, A]):
     """Calls one service; made by :meth:`aioros1.Node.service_caller`.
 

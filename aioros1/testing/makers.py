@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 from typing import TYPE_CHECKING, Any
 
-from aioros1.node import Node
+from aioros1 import Node
+from aioros1._public import public
 
 if TYPE_CHECKING:
     from aioros1.testing.flaky_proxy import FlakyProxy
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["MakeFlakyProxy", "MakeNode"]
 
 
+@public("aioros1.testing")
 class MakeNode:
     """``await make_node("name", **options)``: a started node in the graph of ``master_uri``.
 
@@ -44,6 +46,7 @@ class MakeNode:
         return node
 
 
+@public("aioros1.testing")
 class MakeFlakyProxy:
     """``await flaky_proxy(host, port, **options)``: an open :class:`FlakyProxy`."""
 

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from aioros1._public import public
 from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.xmlrpc.answers import as_it_is, call_triple
 
@@ -17,6 +18,7 @@ __all__ = ["MasterProxy", "SystemState", "TopicType", "topic_types"]
 T = TypeVar("T")
 
 
+@public
 class TopicType(NamedTuple):
     """A topic and the type that its publishers announced."""
 
@@ -24,6 +26,7 @@ class TopicType(NamedTuple):
     type: str
 
 
+@public
 class SystemState(NamedTuple):
     """Who does what: topic or service name to the names of the nodes."""
 
@@ -32,6 +35,7 @@ class SystemState(NamedTuple):
     services: dict[str, list[str]]
 
 
+@public
 class MasterProxy:
     """The master that a node belongs to.
 

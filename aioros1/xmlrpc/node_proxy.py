@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
+from aioros1._public import public
 from aioros1.errors import PeerError, PeerUnreachable
 from aioros1.xmlrpc.answers import as_it_is, call_triple
 from aioros1.xmlrpc.master_proxy import TopicType, topic_types
@@ -27,6 +28,7 @@ __all__ = [
 T = TypeVar("T")
 
 
+@public
 class PublishConnection(NamedTuple):
     connection_id: int
     bytes_sent: int
@@ -34,6 +36,7 @@ class PublishConnection(NamedTuple):
     connected: bool
 
 
+@public
 class PublishStats(NamedTuple):
     """What was published on one topic."""
 
@@ -42,6 +45,7 @@ class PublishStats(NamedTuple):
     connections: list[PublishConnection]
 
 
+@public
 class SubscribeConnection(NamedTuple):
     connection_id: int
     bytes_received: int
@@ -52,6 +56,7 @@ class SubscribeConnection(NamedTuple):
     connected: bool
 
 
+@public
 class SubscribeStats(NamedTuple):
     """What was received on one topic."""
 
@@ -59,12 +64,14 @@ class SubscribeStats(NamedTuple):
     connections: list[SubscribeConnection]
 
 
+@public
 class ServiceStats(NamedTuple):
     num_requests: int
     bytes_received: int
     bytes_sent: int
 
 
+@public
 class BusStats(NamedTuple):
     publish: list[PublishStats]
     subscribe: list[SubscribeStats]
@@ -72,6 +79,7 @@ class BusStats(NamedTuple):
     """None when the node does not say, as the reference programs do not."""
 
 
+@public
 class BusInfo(NamedTuple):
     """One connection of a node."""
 
@@ -84,6 +92,7 @@ class BusInfo(NamedTuple):
     info: str = ""
 
 
+@public
 class NodeProxy:
     """Another node.
 
