@@ -41,6 +41,7 @@ class RoleRegistered(Event):
     kind: str
     """``publisher``, ``subscriber``, ``service`` or ``parameter``."""
     name: str
+    """The resolved name of its topic, service or parameter."""
 
 
 @public
@@ -49,7 +50,9 @@ class RoleUnregistered(Event):
     """A role was taken back from the master, or the master could not be told."""
 
     kind: str
+    """What the role is: ``publisher``, ``subscriber``, ``service`` or ``parameter``."""
     name: str
+    """The resolved name of its topic, service or parameter."""
 
 
 @public
@@ -60,7 +63,9 @@ class PeerConnected(Event):
     kind: str
     """The role on our side: ``publisher``, ``subscriber`` or ``service``."""
     name: str
+    """The resolved name of the topic or service."""
     connection: ConnectionInfo
+    """The new connection."""
 
 
 @public
@@ -69,9 +74,13 @@ class PeerDisconnected(Event):
     """A TCPROS connection ended."""
 
     kind: str
+    """The role on our side: ``publisher``, ``subscriber`` or ``service``."""
     name: str
+    """The resolved name of the topic or service."""
     connection: ConnectionInfo
+    """The connection that ended, with its final counters."""
     reason: str = ""
+    """Why it ended, as far as that is known."""
 
 
 @public
@@ -79,12 +88,13 @@ class PeerDisconnected(Event):
 class ParamUpdate(Event):
     """A followed parameter, or a part of it, was set or deleted.
 
-    ``key`` is resolved and has no trailing slash. ``value`` is ``{}`` for a deleted
-    parameter: that is all the protocol says.
+    ROS 1 announces a deleted parameter as ``{}``, like one that is set to that.
     """
 
     key: str
+    """The resolved name of the parameter that was set or deleted."""
     value: Any
+    """Its new value; ``{}`` for a deleted parameter."""
 
 
 @public
@@ -93,7 +103,9 @@ class MasterLost(Event):
     """The master has not answered a heartbeat. Topics that flow go on flowing."""
 
     uri: str
+    """The URI that does not answer."""
     reason: str
+    """The error of the heartbeat."""
 
 
 @public
@@ -103,7 +115,9 @@ class MasterRestarted(Event):
     has all registrations again."""
 
     uri: str
+    """The URI of the master."""
     run_id: str
+    """Its ``/run_id``, which tells one run of a master from another."""
 
 
 @public
@@ -116,7 +130,9 @@ class ClockJumped(Event):
     """
 
     before: Time
+    """The last time before the jump."""
     now: Time
+    """The first time after it."""
 
 
 T = TypeVar("T")

@@ -20,8 +20,11 @@ class GraphNode:
     """What one node is registered for: names of topics and services."""
 
     publishes: frozenset[str]
+    """Topics that it publishes."""
     subscribes: frozenset[str]
+    """Topics that it receives."""
     provides: frozenset[str]
+    """Services that it provides."""
 
 
 @public
@@ -32,8 +35,11 @@ class GraphSnapshot:
     publishers: Mapping[str, frozenset[str]]
     """Topic to the names of the nodes that publish it."""
     subscribers: Mapping[str, frozenset[str]]
+    """Topic to the names of the nodes that receive it."""
     services: Mapping[str, frozenset[str]]
+    """Service to the names of the nodes that provide it."""
     topic_types: Mapping[str, str]
+    """Topic to the type that was announced for it."""
 
     @property
     def nodes(self) -> frozenset[str]:
@@ -89,6 +95,7 @@ class GraphChange:
     """(kind, name, node) for each new registration; kinds are ``publisher``,
     ``subscriber`` and ``service``."""
     removed: frozenset[tuple[str, str, str]]
+    """The same for each registration that is gone."""
 
 
 @public

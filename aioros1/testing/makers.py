@@ -34,6 +34,10 @@ class MakeNode:
         self._stack = stack
         self._clock = clock
 
+    def __repr__(self) -> str:
+        clock = "" if self._clock is None else f", with the time of {self._clock!r}"
+        return f"<MakeNode for the master at {self._master_uri}{clock}>"
+
     async def __call__(self, name: str = "node", **options: Any) -> Node:
         options.setdefault("master_uri", self._master_uri)
         options.setdefault("host", "localhost")
@@ -52,8 +56,14 @@ class MakeFlakyProxy:
 
     def __init__(self, stack: contextlib.AsyncExitStack) -> None:
         self._stack = stack
+        self._made = 0
+
+    def __repr__(self) -> str:
+        return f"<MakeFlakyProxy, {self._made} made>"
 
     async def __call__(self, host: str, port: int, **options: Any) -> FlakyProxy:
         from aioros1.testing.flaky_proxy import FlakyProxy
 
-        return await self._stack.enter_async_context(FlakyProxy(host, port, **options))
+        proxy = await self._stack.enter_async_context(FlakyProxy(host, port, **options))
+        self._made += 1
+        return proxy

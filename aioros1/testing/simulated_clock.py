@@ -87,6 +87,10 @@ class SimulatedClock:
         finally:
             await self._node.__aexit__(exc_type, exc, traceback)
 
+    def __repr__(self) -> str:
+        state = "open" if self._node.is_open else "closed" if self._publisher else "new"
+        return f"<SimulatedClock at {self._now} of {self._node.master_uri}, {state}>"
+
     @property
     def now(self) -> Time:
         """The time that was published last."""

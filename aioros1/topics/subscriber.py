@@ -39,6 +39,7 @@ class MessageEvent(Generic[M]):
     """A message with what came along with it."""
 
     message: M
+    """The message itself."""
     header: Mapping[str, str]
     """The connection header of the publisher; ``header["callerid"]`` is its name."""
     received: Time
