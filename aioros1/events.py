@@ -171,7 +171,11 @@ class Broadcast(Generic[T]):
 
 @public
 class EventStream(Generic[T]):
-    """An asynchronous iterator over the items of a :class:`Broadcast`."""
+    """An asynchronous iterator over events; made by :meth:`aioros1.Node.events`.
+
+    Up to a thousand events wait in it to be taken; then the oldest go first. It ends with
+    the node, after the events that came before.
+    """
 
     def __init__(self, size: int) -> None:
         self.dropped = 0

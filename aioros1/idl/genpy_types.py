@@ -18,7 +18,8 @@ class GenpyMessage(Protocol):
     """
 
     def _check_types(self, exc: Any = None) -> Any: ...
-    def serialize(self, buff: Any) -> Any: ...
+    def serialize(self, buff: Any) -> Any:
+        """Write the bytes to a file-like object, as genpy's messages do."""
 
 
 @public

@@ -16,18 +16,18 @@ ConstantValue: TypeAlias = int | float | bool | str
 @public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One field.
-
-    ``type`` is as written, but with its package (``geometry_msgs/Point[]``,
-    ``float64[36]``); ``base_type`` is the same without brackets. ``array_len`` is the
-    length of a fixed array, and None for any other field.
-    """
+    """One field of a message."""
 
     name: str
+    """The name."""
     type: str
+    """As written, but with its package: ``geometry_msgs/Point[]``, ``float64[36]``."""
     base_type: str
+    """The same without brackets."""
     is_array: bool = False
+    """Whether there are brackets behind the type."""
     array_len: int | None = None
+    """The length of a fixed array; None for any other field."""
 
     @property
     def is_builtin(self) -> bool:
@@ -38,23 +38,31 @@ class Field:
 @public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """One constant. ``text`` is the value as it is hashed for the MD5 sum."""
+    """One constant of a message."""
 
     name: str
+    """The name."""
     type: str
+    """The built-in type."""
     value: ConstantValue
+    """The value, as an attribute of the class has it."""
     text: str
+    """The value as it is hashed for the MD5 sum."""
 
 
 @public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class MessageSpec:
-    """The definition of a message; ``text`` is the text that it was read from."""
+    """The definition of a message."""
 
     type: str
+    """``pkg/Type``."""
     fields: tuple[Field, ...]
+    """The fields, in order."""
     constants: tuple[Constant, ...]
+    """The constants, in order."""
     text: str
+    """The text that it was read from."""
 
     @property
     def package(self) -> str:
@@ -79,20 +87,24 @@ class ServiceSpec:
     """The definition of a service, which has two messages."""
 
     type: str
+    """``pkg/Type``."""
     request: MessageSpec
+    """The definition of the request, ``pkg/TypeRequest``."""
     response: MessageSpec
+    """The definition of the response, ``pkg/TypeResponse``."""
     text: str
+    """The text that it was read from."""
 
 
 @public("aioros1.idl")
 @dataclass(frozen=True, slots=True)
 class ActionSpec:
-    """The definition of an action, of which actionlib makes seven messages.
-
-    ``messages`` has them by their suffixes: ``Action``, ``ActionGoal``,
-    ``ActionResult``, ``ActionFeedback``, ``Goal``, ``Result``, ``Feedback``.
-    """
+    """The definition of an action, of which actionlib makes seven messages."""
 
     type: str
+    """``pkg/Type``."""
     messages: dict[str, MessageSpec]
+    """The seven by their suffixes: ``Action``, ``ActionGoal``, ``ActionResult``,
+    ``ActionFeedback``, ``Goal``, ``Result``, ``Feedback``."""
     text: str
+    """The text that it was read from."""

@@ -337,7 +337,8 @@ def _looked_up(name: str, module: ModuleType, tree: ast.Module) -> object:
         return vars(module)[name]
     if name in _imported(tree):
         source, original = _imported(tree)[name]
-        return getattr(import_module(source), original, None)
+        if source.partition(".")[0] == "aioros1":
+            return getattr(import_module(source), original, None)
     return None
 
 
