@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from typing import Any, TypeVar, overload
+from typing import Any, ForwardRef, TypeVar, overload
 
 __all__ = ["HOMES", "public"]
 
@@ -62,9 +62,10 @@ def _mark(thing: Any, module: str) -> Any:
 
 
 def _evaluated(annotation: Any, known: dict[str, Any]) -> Any:
-    if not isinstance(annotation, str):
+    text = annotation.__forward_arg__ if isinstance(annotation, ForwardRef) else annotation
+    if not isinstance(text, str):
         return annotation
     try:
-        return eval(annotation, known)
+        return eval(text, known)
     except NameError:  # imported for type checkers only
         return annotation

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from aioros1._public import public
+
 __all__ = ["ConnectionInfo", "ConnectionStats"]
 
 # Connection ids need only be unique within a node; counting through all nodes of a
@@ -14,6 +16,7 @@ __all__ = ["ConnectionInfo", "ConnectionStats"]
 _ids = itertools.count(1)
 
 
+@public
 @dataclass(slots=True)
 class ConnectionStats:
     """Counters of one connection. They only ever grow."""
@@ -28,6 +31,7 @@ class ConnectionStats:
     """Messages that were dropped because the other side was too slow."""
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectionInfo:
     """One connection of a role, as it is now.

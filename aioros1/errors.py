@@ -78,6 +78,7 @@ class MessageNotFoundError(MessageError, LookupError):
     def __init__(self, text: str, places: Sequence[str] | None = None) -> None:
         super().__init__(text, places)
         self.text = text
+        """What was looked for, without the places."""
         self.places = places
 
     def __str__(self) -> str:
@@ -96,6 +97,7 @@ class MessageSpecError(MessageError):
 
     def __init__(self, text: str, *, path: str | PathLike[str] = "", line: int = 0) -> None:
         self.text = text
+        """What is wrong, without the place."""
         self.path = str(path)
         self.line = line
         place = f"{self.path}:{line}" if line else self.path
@@ -154,8 +156,12 @@ class PeerError(RosError):
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
         super().__init__(code, status)
         self.code = code
+        """0 or -1 from the answer, or the code of an XML-RPC fault."""
         self.status = status
+        """What was asked of whom, and the text of the other node."""
         self.is_refusal = is_refusal
+        """False when the answer says nothing about what was asked: it was a fault, or none of a
+        node."""
 
     def __str__(self) -> str:
         return f"{self.status} (code {self.code})"

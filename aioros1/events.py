@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, Self, TypeVar
 from weakref import WeakSet
 
+from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.time import Time
 from aioros1.waiting import Waiters
@@ -26,11 +27,13 @@ __all__ = [
 ]
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class Event:
     """The base of all events of a node."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class RoleRegistered(Event):
     """The master has accepted a role, for the first time or again."""
@@ -38,16 +41,21 @@ class RoleRegistered(Event):
     kind: str
     """``publisher``, ``subscriber``, ``service`` or ``parameter``."""
     name: str
+    """The resolved name of its topic, service or parameter."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class RoleUnregistered(Event):
     """A role was taken back from the master, or the master could not be told."""
 
     kind: str
+    """What the role is: ``publisher``, ``subscriber``, ``service`` or ``parameter``."""
     name: str
+    """The resolved name of its topic, service or parameter."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class PeerConnected(Event):
     """A TCPROS connection carries messages now."""
@@ -55,48 +63,64 @@ class PeerConnected(Event):
     kind: str
     """The role on our side: ``publisher``, ``subscriber`` or ``service``."""
     name: str
+    """The resolved name of the topic or service."""
     connection: ConnectionInfo
+    """The new connection."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class PeerDisconnected(Event):
     """A TCPROS connection ended."""
 
     kind: str
+    """The role on our side: ``publisher``, ``subscriber`` or ``service``."""
     name: str
+    """The resolved name of the topic or service."""
     connection: ConnectionInfo
+    """The connection that ended, with its final counters."""
     reason: str = ""
+    """Why it ended, as far as that is known."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class ParamUpdate(Event):
     """A followed parameter, or a part of it, was set or deleted.
 
-    ``key`` is resolved and has no trailing slash. ``value`` is ``{}`` for a deleted
-    parameter: that is all the protocol says.
+    ROS 1 announces a deleted parameter as ``{}``, like one that is set to that.
     """
 
     key: str
+    """The resolved name of the parameter that was set or deleted."""
     value: Any
+    """Its new value; ``{}`` for a deleted parameter."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class MasterLost(Event):
     """The master has not answered a heartbeat. Topics that flow go on flowing."""
 
     uri: str
+    """The URI that does not answer."""
     reason: str
+    """The error of the heartbeat."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class MasterRestarted(Event):
     """The master is back, was replaced, or was told that this node has another address; it
     has all registrations again."""
 
     uri: str
+    """The URI of the master."""
     run_id: str
+    """Its ``/run_id``, which tells one run of a master from another."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class ClockJumped(Event):
     """The time of the node has jumped: ``/clock`` went backwards, as when a simulation or a
@@ -106,7 +130,9 @@ class ClockJumped(Event):
     """
 
     before: Time
+    """The last time before the jump."""
     now: Time
+    """The first time after it."""
 
 
 T = TypeVar("T")
@@ -143,8 +169,13 @@ class Broadcast(Generic[T]):
         return stream
 
 
+@public
 class EventStream(Generic[T]):
-    """An asynchronous iterator over the items of a :class:`Broadcast`."""
+    """An asynchronous iterator over events; made by :meth:`aioros1.Node.events`.
+
+    Up to a thousand events wait in it to be taken; then the oldest go first. It ends with
+    the node, after the events that came before.
+    """
 
     def __init__(self, size: int) -> None:
         self.dropped = 0

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Self
 
+from aioros1._public import public
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
 from aioros1.waiting import deadline
@@ -13,15 +14,20 @@ from aioros1.waiting import deadline
 __all__ = ["Graph", "GraphChange", "GraphChanges", "GraphNode", "GraphSnapshot"]
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class GraphNode:
     """What one node is registered for: names of topics and services."""
 
     publishes: frozenset[str]
+    """Topics that it publishes."""
     subscribes: frozenset[str]
+    """Topics that it receives."""
     provides: frozenset[str]
+    """Services that it provides."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class GraphSnapshot:
     """The graph at one moment, as the master sees it."""
@@ -29,8 +35,11 @@ class GraphSnapshot:
     publishers: Mapping[str, frozenset[str]]
     """Topic to the names of the nodes that publish it."""
     subscribers: Mapping[str, frozenset[str]]
+    """Topic to the names of the nodes that receive it."""
     services: Mapping[str, frozenset[str]]
+    """Service to the names of the nodes that provide it."""
     topic_types: Mapping[str, str]
+    """Topic to the type that was announced for it."""
 
     @property
     def nodes(self) -> frozenset[str]:
@@ -75,6 +84,7 @@ class GraphSnapshot:
         )
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class GraphChange:
     """What is different from one snapshot to the next."""
@@ -85,8 +95,10 @@ class GraphChange:
     """(kind, name, node) for each new registration; kinds are ``publisher``,
     ``subscriber`` and ``service``."""
     removed: frozenset[tuple[str, str, str]]
+    """The same for each registration that is gone."""
 
 
+@public
 class Graph:
     """The graph that a node belongs to: ``node.graph``.
 
@@ -138,6 +150,7 @@ class Graph:
         return snapshot
 
 
+@public
 class GraphChanges:
     """An iterator over the changes of a graph; made by :meth:`Graph.changes`.
 

@@ -6,6 +6,8 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
+from aioros1._public import public
+
 __all__ = [
     "DEFAULT_QUEUE_SIZE",
     "LOCAL_TRANSPORTS",
@@ -34,6 +36,7 @@ DEFAULT_QUEUE_SIZE = 10
 """Messages that wait in the queue of a publisher or a subscriber by default."""
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Timeouts:
     """How long a node waits for others, in seconds."""
@@ -59,6 +62,7 @@ class Timeouts:
     longer, is taken for dead. Whole seconds, at least 1."""
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limits:
     """How much a node or a master accepts from others.
@@ -148,28 +152,47 @@ _KINDS: dict[str, tuple[Any, str]] = {
 }
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeOptions:
     """What a node was made with; see :class:`Node` for the meaning of each."""
 
     namespace: str | None = None
+    """The namespace; None for ``ROS_NAMESPACE``."""
     master_uri: str | None = None
+    """The master; None for ``ROS_MASTER_URI``."""
     host: str | None = None
+    """What others are told to connect to; None to find out."""
     bind: str | None = None
+    """The address to listen on; None for what ``host`` implies."""
     allow: Collection[str] | None = None
+    """The networks from which connections are taken; None for all."""
     xmlrpc_port: int = 0
+    """The port of the slave API; 0 takes a free one."""
     tcpros_port: int = 0
+    """The port for topics and services; 0 takes a free one."""
     argv: tuple[str, ...] | None = None
+    """The command line; None for none."""
     remap: Mapping[str, str] | None = None
+    """Names to be replaced, and by what."""
     anonymous: bool = False
+    """Whether the name was made unique."""
     rosout: bool | Collection[str] = True
+    """Whether ``node.log`` goes to ``/rosout``; or the names of loggers that go there too."""
     logger_services: bool = True
+    """Whether the node provides ``~get_loggers`` and ``~set_logger_level``."""
     use_sim_time: bool | None = None
+    """Whether the node follows ``/clock``; None for what the parameter says."""
     heartbeat: float | None = 1.0
+    """Seconds between two looks after the master; None for none."""
     timeouts: Timeouts = Timeouts()
+    """How long the node waits for others."""
     limits: Limits = Limits()
+    """How much the node accepts from others."""
     on_error: OnError = "raise"
+    """What becomes of an exception in a callback."""
     local_transports: Collection[LocalTransport] = LOCAL_TRANSPORTS
+    """How topics may go past TCP."""
 
     def __post_init__(self) -> None:
         for name, (kind, expected) in _KINDS.items():

@@ -10,8 +10,8 @@ from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
-from aioros1.errors import ClosedError
-from aioros1.node import Node
+from aioros1 import ClosedError, Node
+from aioros1._public import public
 
 __all__ = ["run"]
 
@@ -22,6 +22,7 @@ _GRACE = 1.0
 """Seconds that ``main`` has to return once its node is closed, before it is cancelled."""
 
 
+@public
 def run(
     main: Callable[[Node], Coroutine[Any, Any, T]],
     name: str | None = None,

@@ -25,8 +25,7 @@ from types import CodeType
 import pytest
 
 import aioros1
-from aioros1.graph import Graph
-from aioros1.xmlrpc.master_proxy import MasterProxy
+from aioros1._public import HOMES
 
 ROOT = Path(aioros1.__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -188,8 +187,8 @@ def test_links_between_pages_lead_somewhere():
 
 KINDS: dict[str, type] = {
     "node": aioros1.Node,
-    "node.graph": Graph,
-    "node.master": MasterProxy,
+    "node.graph": aioros1.Graph,
+    "node.master": aioros1.MasterProxy,
     "peer": aioros1.NodeProxy,
     "pub": aioros1.Publisher,
     "sub": aioros1.Subscriber,
@@ -206,10 +205,18 @@ _DOTTED = re.compile(r"(?<![\w./])aioros1((?:\.[A-Za-z]\w*)+)")
 def is_member(kind: type, name: str) -> bool:
     """Whether instances have an attribute of that name, set in a constructor or not."""
     return hasattr(kind, name) or any(
-        f"self.{name}" in inspect.getsource(cls)
+        f"self.{name}" in ast.unparse(each)
         for cls in kind.__mro__
         if cls.__module__.startswith("aioros1")
+        for each in _source(cls).body
+        if isinstance(each, ast.ClassDef) and each.name == cls.__name__
     )
+
+
+def _source(cls: type) -> ast.Module:
+    """The module in which a class is written."""
+    home = HOMES.get(f"{cls.__module__}.{cls.__qualname__}", cls.__module__)
+    return ast.parse(inspect.getsource(sys.modules[home]))
 
 
 FOLDERS = [ROOT, ROOT / "aioros1"]

@@ -24,8 +24,8 @@ def main(argv: Sequence[str] | None = None) -> None:
             f'the aioros1 command needs {error.name}: pip install "aioros1[cli]"', file=sys.stderr
         )
         raise SystemExit(2) from None
+    from aioros1 import RosError
     from aioros1.cli._app import make_app
-    from aioros1.errors import RosError
 
     if isinstance(sys.stdout, io.TextIOWrapper):
         # A character that the terminal does not have must not be the end of the output.

@@ -9,8 +9,8 @@ from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from aioros1.idl.paths import Kind
-    from aioros1.idl.store import MessageStore
+    from aioros1 import MessageStore
+    from aioros1.idl import Kind
 
 __all__ = ["all_types", "matching", "near_misses", "packages"]
 
@@ -21,14 +21,14 @@ _PACKAGE_LIKENESS, _TYPE_LIKENESS = 0.5, 0.7
 
 def packages(store: MessageStore, kind: Kind) -> list[str]:
     """The packages that have types of the kind."""
-    from aioros1.idl.modules import types_of
+    from aioros1.idl import types_of
 
     return [package for package in store.packages() if types_of(store, package, kind)]
 
 
 def all_types(store: MessageStore, kind: Kind) -> list[str]:
     """All types of the kind, as ``pkg/Type``."""
-    from aioros1.idl.modules import types_of
+    from aioros1.idl import types_of
 
     return [name for package in store.packages() for name in types_of(store, package, kind)]
 

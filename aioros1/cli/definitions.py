@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 from cyclopts import App, Parameter
 from cyclopts.types import ExistingDirectory
 
+from aioros1 import InvalidNameError, MessageError, MessageNotFoundError
 from aioros1.cli import _catalog
-from aioros1.errors import InvalidNameError, MessageError, MessageNotFoundError
 
 if TYPE_CHECKING:
-    from aioros1.idl.paths import Kind
-    from aioros1.idl.store import MessageStore
+    from aioros1 import MessageStore
+    from aioros1.idl import Kind
 
 __all__ = ["KINDS", "make_noun"]
 
@@ -80,14 +80,14 @@ class _Commands:
 
     def show(self, type: TypeName = None, /, *, raw: Raw = False, path: Paths = ()) -> None:
         """Show the constants and fields of a type, and those of the types inside."""
-        from aioros1.idl.show import show
+        from aioros1.idl import outline, spec_of
 
         store = _store(path)
 
         def text(cls: Any) -> str:
-            spec = cls._spec
+            spec = spec_of(cls)
             # Either text ends its last line itself: the empty one after it is rosmsg's way.
-            return spec.text if raw else show(spec, lambda name: store.load_msg(name)._spec)
+            return spec.text if raw else outline(spec, lambda name: spec_of(store.load_msg(name)))
 
         self._print(store, type, text)
 
@@ -170,7 +170,7 @@ class _Commands:
         self, package: str, /, *, single_line: SingleLine = False, path: Paths = ()
     ) -> None:
         """List the types of a package."""
-        from aioros1.idl.modules import types_of
+        from aioros1.idl import types_of
 
         store = _store(path)
         names = types_of(store, package, self.kind)
@@ -194,9 +194,10 @@ class _ActionCommands(_Commands):
 
         The first message contains all others, and so its sum stands for the whole.
         """
+        from aioros1.idl import spec_of
 
         def text(cls: Any) -> str:
-            messages = [getattr(cls, name) for name in cls._spec.messages]
+            messages = [getattr(cls, name) for name in spec_of(cls).messages]
             return "\n".join(f"[{message._type}]: {message._md5sum}" for message in messages)
 
         self._print(_store(path), type, text)
@@ -208,7 +209,7 @@ class _ActionCommands(_Commands):
 
 def _store(paths: Iterable[Any]) -> MessageStore:
     # Imported when a command runs: the help needs no definitions.
-    from aioros1.idl.store import standard_store
+    from aioros1.idl import standard_store
 
     # The last part of a path can be the name of a package, which "." does not have.
     return standard_store(map(abspath, paths))

@@ -51,7 +51,7 @@ async def _serve(
 ) -> int:
     import asyncio
 
-    from aioros1.master import Master
+    from aioros1 import Master
 
     stop = asyncio.Event()
     loop = asyncio.get_running_loop()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from os.path import abspath
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -34,23 +34,12 @@ def stubs(
         by this command is never replaced.
     """
     # Imported here: the help needs none of it.
-    from aioros1.errors import MessageNotFoundError
-    from aioros1.idl.store import standard_store
-    from aioros1.idl.stubs import Stubs, write_stubs
+    from aioros1.idl import standard_store, write_package_stubs
 
     store = standard_store(map(abspath, path))
-    writer = Stubs(store, "importer")
-    files: dict[PurePosixPath, str] = {}
-    packages = dict.fromkeys([package, *more])
-    for name in packages:
-        found = writer.files(name)
-        if not found:
-            places = ", ".join(store.places())
-            raise MessageNotFoundError(f"no definitions of a package {name!r}; searched: {places}")
-        files |= found
-    for written in write_stubs(files, output):
-        print(written)
-    missing = sorted(writer.referred.difference(packages))
+    written, missing = write_package_stubs(store, [package, *more], output)
+    for each in written:
+        print(each)
     if missing:
         print(
             f"aioros1 stubs: these refer to {', '.join(missing)}: stubs of "

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Self
 
+from aioros1._public import public
 from aioros1.clock.clock import Clock
 from aioros1.errors import ClosedError
 from aioros1.time import Time
@@ -12,6 +13,7 @@ from aioros1.time import Time
 __all__ = ["Rate", "period_of"]
 
 
+@public
 class Rate:
     """An iterator over the times at which a period begins; made by :meth:`aioros1.Node.rate`.
 

@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any, Protocol
 
+from aioros1._public import public
 from aioros1.clock.clock import Clock, to_nanoseconds
 from aioros1.clock.rate import Rate
 from aioros1.net.loop_state import loop_state
@@ -22,6 +23,7 @@ class Spawn(Protocol):
     ) -> asyncio.Task[None]: ...
 
 
+@public
 class Timer:
     """Calls a function again and again; made by :meth:`aioros1.Node.timer`."""
 

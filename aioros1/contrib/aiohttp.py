@@ -7,7 +7,7 @@ from typing import Any
 
 from aiohttp import web
 
-from aioros1.node import Node
+from aioros1 import Node
 
 __all__ = ["NODE", "node_ctx"]
 

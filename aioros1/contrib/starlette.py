@@ -6,7 +6,7 @@ import contextlib
 from collections.abc import AsyncIterator, Callable, Mapping
 from typing import Any
 
-from aioros1.node import Node
+from aioros1 import Node
 
 __all__ = ["Lifespan", "node_lifespan"]
 

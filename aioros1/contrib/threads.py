@@ -11,9 +11,7 @@ from concurrent.futures import Future
 from types import TracebackType
 from typing import Any, ParamSpec, Self, TypeVar, overload
 
-from aioros1.errors import ClosedError
-from aioros1.node import Node
-from aioros1.waiting import deadline
+from aioros1 import ClosedError, Node
 
 __all__ = ["NodeThread"]
 
@@ -301,17 +299,19 @@ class NodeThread:
         """Await it, and give ``future`` what comes of it."""
         result: Any = None
         error: BaseException | None = None
+        limit = asyncio.timeout(timeout)
         try:
-            if timeout is None:
+            async with limit:
                 result = await awaitable
-            else:
-                async with deadline(timeout, f"{_name(awaitable)} did not end"):
-                    result = await awaitable
         except asyncio.CancelledError:
             if self._is_open:
                 future.cancel()
             else:
                 error = self._closed_error()  # nobody asked for that cancellation
+        except TimeoutError as caught:
+            error = caught
+            if limit.expired():
+                error = TimeoutError(f"{_name(awaitable)} did not end within {timeout:g} s")
         except BaseException as caught:  # SystemExit too is for who waits, not for the loop
             error = caught
         if not future.set_running_or_notify_cancel():

@@ -8,6 +8,7 @@ place what a part needs and who may touch it.
 from __future__ import annotations
 
 import asyncio
+from asyncio import _get_running_loop
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
@@ -129,11 +130,13 @@ class Context:
             reason = supervisor.reason
             why = f" ({reason})" if reason is not None else ""
             raise ClosedError(f"node {self.name} is {supervisor.state}, not open{why}")
-        supervisor.check_loop()
+        if _get_running_loop() is not supervisor.loop:
+            supervisor.check_loop()
 
     def check_loop(self) -> None:
         """Raise :class:`RuntimeError` in another thread or event loop than the node's."""
-        self._supervisor.check_loop()
+        if _get_running_loop() is not self._supervisor.loop:
+            self._supervisor.check_loop()
 
     async def admit(self, member: M, abort: Callable[[], None]) -> M:
         """Hand out what was opened, unless the node was closed meanwhile.

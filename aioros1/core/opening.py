@@ -6,6 +6,8 @@ from collections.abc import Coroutine, Generator
 from types import TracebackType
 from typing import Any, Generic, Protocol, TypeVar
 
+from aioros1._public import public
+
 __all__ = ["Opening"]
 
 
@@ -16,6 +18,7 @@ class _Closable(Protocol):
 R = TypeVar("R", bound=_Closable)
 
 
+@public
 class Opening(Generic[R]):
     """A role on its way: await it, or use it with ``async with``.
 

@@ -8,7 +8,7 @@ service, a followed parameter. It has the connections, and its entry at the mast
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import ClassVar, Generic, Self, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
@@ -28,7 +28,7 @@ class Shared(ABC, Generic[R]):
     kind: ClassVar[str]
     """What the events of a node call it."""
 
-    def __init__(self, context: Context, name: str, table: dict[str, Self]) -> None:
+    def __init__(self, context: Context, name: str, table: dict[str, Any]) -> None:
         self.name = name
         self.roles: tuple[R, ...] = ()
         """The roles that use it, in the order in which they came."""

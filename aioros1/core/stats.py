@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from aioros1._public import public
+
 __all__ = ["NodeStats", "RoleStats"]
 
 
+@public
 @dataclass(slots=True)
 class RoleStats:
     """Counters of one role since it was opened. They only ever grow."""
@@ -24,6 +27,7 @@ class RoleStats:
     """Messages that could not be decoded, or calls that failed."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class NodeStats:
     """Sums over the open roles of a node."""

@@ -47,7 +47,9 @@ class Supervisor:
         self._report = report
         self.state: State = "new"
         """Where the node is in its life; the steps of that set it."""
-        self._loop_state: LoopState | None = None  # of the loop that the node lives in
+        self.loop: asyncio.AbstractEventLoop | None = None
+        """The event loop that the node lives in; None before it is started."""
+        self._loop_state: LoopState | None = None
         self._group: asyncio.TaskGroup | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
@@ -57,7 +59,8 @@ class Supervisor:
     async def start(self) -> None:
         """Return when the node has begun; raise what it raises."""
         self._loop_state = loop_state()
-        begun = self._loop_state.loop.create_future()
+        self.loop = self._loop_state.loop
+        begun = self.loop.create_future()
         self._task = asyncio.create_task(self._run(begun), name=f"{self._name} supervisor")
         try:
             await asyncio.shield(begun)

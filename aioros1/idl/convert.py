@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from math import inf, isfinite, nan
 from typing import Any, NoReturn, TypeVar
 
+from aioros1._public import public
 from aioros1.errors import SerializationError
 from aioros1.idl import values
 from aioros1.idl.builtin_types import BUILTINS, Builtin
@@ -26,6 +27,7 @@ _M = TypeVar("_M", bound=Structure)
 _SECONDS: dict[str, type[Time] | type[Duration]] = {"time": Time, "duration": Duration}
 
 
+@public("aioros1.idl")
 def convert(cls: type[_M], value: Any) -> Any:
     """Make of a value what can be encoded as ``cls``.
 
@@ -53,6 +55,7 @@ def convert(cls: type[_M], value: Any) -> Any:
 # -- to dicts ------------------------------------------------------------------------
 
 
+@public("aioros1.idl")
 def to_dict(message: Any, *, json: bool = False) -> dict[str, Any]:
     """:meth:`Message.to_dict`, for genpy's messages too."""
     return {
@@ -135,6 +138,7 @@ def _float_from_json(text: str) -> float:
 # -- from dicts ----------------------------------------------------------------------
 
 
+@public("aioros1.idl")
 def from_dict(cls: type[_M], source: Mapping[str, Any], path: str = "") -> _M:
     """:meth:`Message.from_dict`; ``path`` is put before the names in errors."""
     if not isinstance(source, Mapping):

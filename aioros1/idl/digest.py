@@ -9,6 +9,7 @@ import hashlib
 from collections.abc import Callable
 from typing import TypeAlias
 
+from aioros1._public import public
 from aioros1.errors import MessageSpecError
 from aioros1.idl.spec import MessageSpec, ServiceSpec
 
@@ -19,6 +20,7 @@ Lookup: TypeAlias = Callable[[str], MessageSpec]
 _RULE = "=" * 80
 
 
+@public("aioros1.idl")
 def md5_text(spec: MessageSpec, lookup: Lookup, known: dict[str, str] | None = None) -> str:
     """The text whose hash is the MD5 sum of a message.
 
@@ -38,6 +40,7 @@ def md5_text(spec: MessageSpec, lookup: Lookup, known: dict[str, str] | None = N
     return "\n".join(lines).strip()
 
 
+@public("aioros1.idl")
 def md5sum(
     spec: MessageSpec | ServiceSpec, lookup: Lookup, known: dict[str, str] | None = None
 ) -> str:
@@ -72,6 +75,7 @@ def closure(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> list[str]:
     return list(found)
 
 
+@public("aioros1.idl")
 def full_text(spec: MessageSpec | ServiceSpec, lookup: Lookup) -> str:
     """The text of a definition and of all types it needs, as in ``message_definition``."""
     parts = [spec.text]

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+from aioros1._public import public
+
 __all__ = ["GenpyMessage", "GenpyService"]
 
 
+@public
 class GenpyMessage(Protocol):
     """A message of genpy's.
 
@@ -15,9 +18,11 @@ class GenpyMessage(Protocol):
     """
 
     def _check_types(self, exc: Any = None) -> Any: ...
-    def serialize(self, buff: Any) -> Any: ...
+    def serialize(self, buff: Any) -> Any:
+        """Write the bytes to a file-like object, as genpy's messages do."""
 
 
+@public
 class GenpyService(Protocol):
     """A service type of genpy's."""
 

@@ -10,6 +10,7 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
+from aioros1._public import public
 from aioros1.idl.modules import DefinitionFinder, DefinitionLoader, names_of
 from aioros1.idl.paths import Kind
 from aioros1.idl.store import MessageStore, default_store
@@ -19,6 +20,7 @@ __all__ = ["install_importer", "uninstall_importer"]
 _KINDS: dict[str, Kind] = {"msg": "msg", "srv": "srv"}
 
 
+@public
 def install_importer(*, store: MessageStore | None = None, shadow: bool = False) -> None:
     """Make message packages importable by ROS's own names, ``std_msgs.msg`` for one.
 
@@ -40,6 +42,7 @@ def install_importer(*, store: MessageStore | None = None, shadow: bool = False)
     sys.meta_path[:] = [_TypesFinder(store, shadow), *sys.meta_path, _PackageFinder(store)]
 
 
+@public
 def uninstall_importer() -> None:
     """Undo :func:`install_importer`, and forget the modules that were imported by it."""
     sys.meta_path[:] = [

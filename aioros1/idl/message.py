@@ -8,25 +8,24 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
 
+from aioros1._public import public
 from aioros1.idl.compiled import CODEC, compiled
 from aioros1.idl.convert import arrays_to_numpy, from_dict, to_dict, values_equal
 from aioros1.idl.structure import Structure
 from aioros1.idl.values import own_memory
 
-__all__ = ["AnyMessage", "Message", "Writable"]
+if TYPE_CHECKING:
+    from _typeshed import SupportsWrite
+
+__all__ = ["AnyMessage", "Message"]
 
 _M = TypeVar("_M", bound="Message")
 _new = object.__new__
 
 
-class Writable(Protocol):
-    """What :meth:`Message.serialize` writes to, such as :class:`io.BytesIO`."""
-
-    def write(self, data: bytes, /) -> object: ...
-
-
+@public
 class Message(Structure):
     """The base class of all messages.
 
@@ -103,7 +102,7 @@ class Message(Structure):
         message: _M = cls._from_bytes(buffer, views=views)
         return message
 
-    def serialize(self, buff: Writable) -> None:
+    def serialize(self, buff: SupportsWrite[bytes]) -> None:
         """genpy's :meth:`to_bytes`: write the bytes to a file-like object."""
         buff.write(type(self)._encode(self))
 
@@ -114,7 +113,7 @@ class Message(Structure):
             setattr(self, name, getattr(message, name))
         return self
 
-    def serialize_numpy(self, buff: Writable, numpy: Any) -> None:
+    def serialize_numpy(self, buff: SupportsWrite[bytes], numpy: Any) -> None:
         """genpy's variant for NumPy arrays, which :meth:`serialize` takes anyway."""
         buff.write(type(self)._encode(self))
 

@@ -16,6 +16,7 @@ from threading import Lock
 from types import ModuleType
 from typing import Any
 
+from aioros1._public import public
 from aioros1.errors import MessageNotFoundError
 from aioros1.idl.building import ACTION_SUFFIXES
 from aioros1.idl.paths import Kind
@@ -32,6 +33,7 @@ __all__ = [
 ]
 
 
+@public("aioros1.idl")
 def types_of(store: MessageStore, package: str, kind: Kind) -> list[str]:
     """All types of a package, sorted; of messages also those of its actions."""
     types = set(store.types(package, kind))

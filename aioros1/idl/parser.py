@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from aioros1._public import public
 from aioros1.errors import InvalidNameError, MessageSpecError
 from aioros1.idl.builtin_types import BUILTINS, CONSTANT_TYPES, HEADER_TYPE, is_builtin
 from aioros1.idl.spec import ActionSpec, Constant, ConstantValue, Field, MessageSpec, ServiceSpec
@@ -30,6 +31,7 @@ def split_type(name: str) -> tuple[str, str]:
     return match[1], match[2]
 
 
+@public("aioros1.idl")
 def parse_message(type: str, text: str, *, path: str = "", line: int = 1) -> MessageSpec:
     """Read the text of a ``.msg`` file.
 
@@ -58,6 +60,7 @@ def parse_message(type: str, text: str, *, path: str = "", line: int = 1) -> Mes
     return MessageSpec(type, tuple(fields.values()), tuple(constants), text)
 
 
+@public("aioros1.idl")
 def parse_service(type: str, text: str, *, path: str = "") -> ServiceSpec:
     """Read the text of a ``.srv`` file; the messages are ``pkg/TypeRequest`` and ``Response``.
 
@@ -121,6 +124,7 @@ def action_texts(type: str, text: str, *, path: str = "") -> dict[str, str]:
     }
 
 
+@public("aioros1.idl")
 def parse_action(type: str, text: str, *, path: str = "") -> ActionSpec:
     """Read the text of a ``.action`` file."""
     path = path or type

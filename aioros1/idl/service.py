@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, overload
 
+from aioros1._public import public
 from aioros1.idl.message import AnyMessage, Message
 from aioros1.idl.spec import ActionSpec, MessageSpec, ServiceSpec
 
@@ -25,6 +26,7 @@ Result = TypeVar("Result", bound=Message)
 Feedback = TypeVar("Feedback", bound=Message)
 
 
+@public
 class Service(Generic[Q, A]):
     """The base class of all service types.
 
@@ -51,6 +53,7 @@ class Service(Generic[Q, A]):
     _response_class: ClassVar[type[Message]]
 
 
+@public
 class Action(Generic[Goal, Result, Feedback]):
     """The base class of all action types.
 
@@ -146,6 +149,7 @@ def spec_of(cls: type[Message]) -> MessageSpec: ...
 def spec_of(cls: type[Service[Any, Any]]) -> ServiceSpec: ...
 @overload
 def spec_of(cls: type[Action[Any, Any, Any]]) -> ActionSpec: ...
+@public("aioros1.idl")
 def spec_of(
     cls: type[Message] | type[Service[Any, Any]] | type[Action[Any, Any, Any]],
 ) -> MessageSpec | ServiceSpec | ActionSpec:

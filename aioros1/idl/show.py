@@ -1,18 +1,20 @@
-"""Shows definitions as rosmsg and rossrv do."""
+"""Definitions as rosmsg and rossrv show them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from aioros1._public import public
 from aioros1.idl.digest import Lookup
 from aioros1.idl.spec import ActionSpec, MessageSpec, ServiceSpec
 
-__all__ = ["show"]
+__all__ = ["outline"]
 
 _SEPARATOR = "---\n"
 
 
-def show(spec: MessageSpec | ServiceSpec | ActionSpec, lookup: Lookup) -> str:
+@public("aioros1.idl")
+def outline(spec: MessageSpec | ServiceSpec | ActionSpec, lookup: Lookup) -> str:
     """One line for each constant and field; the fields of a nested message are indented.
 
     A line of three dashes separates the parts of a service or an action. ``lookup`` gives

@@ -11,6 +11,7 @@ from pathlib import Path
 from threading import RLock
 from typing import Any, Final, TypeAlias, TypeVar
 
+from aioros1._public import public
 from aioros1.errors import MessageNotFoundError, MessageSpecError
 from aioros1.idl import digest
 from aioros1.idl.building import (
@@ -54,6 +55,7 @@ _V = TypeVar("_V")
 _Source: TypeAlias = tuple[str, str]  # text, and the path for errors
 
 
+@public
 class MessageStore:
     """Loads types by name, each of them once.
 
@@ -509,6 +511,7 @@ def _not_a_type(kind: str, value: Any) -> TypeError:
 # -- the store that is used when none is named ----------------------------------------
 
 
+@public("aioros1.idl")
 def standard_store(paths: Iterable[str | os.PathLike[str]] = ()) -> MessageStore:
     """A new store that searches ``paths``, and then what :func:`default_store` searches."""
     store = MessageStore(parent=None)
@@ -519,6 +522,7 @@ def standard_store(paths: Iterable[str | os.PathLike[str]] = ()) -> MessageStore
 _default_store: Final = standard_store()  # reads nothing before it is asked for a type
 
 
+@public("aioros1.idl")
 def default_store() -> MessageStore:
     """The store of the environment, the installed ROS and the bundle.
 
@@ -527,16 +531,19 @@ def default_store() -> MessageStore:
     return _default_store
 
 
+@public
 def load_msg(type: str) -> MessageClass:
     """:meth:`MessageStore.load_msg` of the default store."""
     return default_store().load_msg(type)
 
 
+@public
 def load_srv(type: str) -> ServiceClass:
     """:meth:`MessageStore.load_srv` of the default store."""
     return default_store().load_srv(type)
 
 
+@public
 def load_action(type: str) -> ActionClass:
     """:meth:`MessageStore.load_action` of the default store."""
     return default_store().load_action(type)

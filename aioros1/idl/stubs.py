@@ -7,13 +7,14 @@ library; ``aioros1 stubs`` writes those of other packages.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from keyword import iskeyword
 from pathlib import Path, PurePosixPath
 from typing import Literal, TypeAlias
 
-from aioros1.errors import MessageError
+from aioros1._public import public
+from aioros1.errors import MessageError, MessageNotFoundError
 from aioros1.idl.building import ACTION_SUFFIXES
 from aioros1.idl.builtin_types import BUILTINS
 from aioros1.idl.message import Message
@@ -23,7 +24,15 @@ from aioros1.idl.spec import Constant, ConstantValue, Field
 from aioros1.idl.store import MessageStore
 from aioros1.idl.structure import Structure
 
-__all__ = ["HEADER", "Layout", "Stubs", "bundled_store", "bundled_stubs", "write_stubs"]
+__all__ = [
+    "HEADER",
+    "Layout",
+    "Stubs",
+    "bundled_store",
+    "bundled_stubs",
+    "write_package_stubs",
+    "write_stubs",
+]
 
 HEADER = "# Made by aioros1 from message definitions. Change those, and have it made anew.\n"
 _WIDTH = 100
@@ -306,6 +315,32 @@ def write_stubs(files: Mapping[PurePosixPath, str], directory: Path) -> list[Pat
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(texts[path], encoding="utf-8")
     return changed
+
+
+@public("aioros1.idl")
+def write_package_stubs(
+    store: MessageStore, packages: Iterable[str], directory: Path
+) -> tuple[list[Path], list[str]]:
+    """Write what type checkers have to know of packages that are imported as in rospy.
+
+    Returns the files that are new or changed, and the names of further packages, sorted,
+    that the stubs refer to and that come neither with the library nor among ``packages``.
+
+    Raises :class:`~aioros1.MessageNotFoundError` for a package without definitions,
+    :class:`~aioros1.MessageError` for a definition that cannot be read, and
+    :class:`FileExistsError`, before anything is written, if a file is in the way that
+    was not made by aioros1.
+    """
+    writer = Stubs(store, "importer")
+    files: dict[PurePosixPath, str] = {}
+    names = dict.fromkeys(packages)
+    for name in names:
+        found = writer.files(name)
+        if not found:
+            places = ", ".join(store.places())
+            raise MessageNotFoundError(f"no definitions of a package {name!r}; searched: {places}")
+        files |= found
+    return write_stubs(files, directory), sorted(writer.referred.difference(names))
 
 
 def _main() -> None:

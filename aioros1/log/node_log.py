@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Hashable, MutableMapping
 from types import FrameType
 from typing import Any
 
+from aioros1._public import public
 from aioros1.log.file import log_to_file
 from aioros1.time import Duration
 
@@ -29,6 +30,7 @@ def logger_name(node_name: str) -> str:
     return "ros" + node_name.replace("/", ".")
 
 
+@public
 class NodeLog(logging.LoggerAdapter[logging.Logger]):
     """``node.log``: the logger of a node, and less of it.
 
@@ -96,6 +98,7 @@ class NodeLog(logging.LoggerAdapter[logging.Logger]):
         return SparseLog(self, is_due)
 
 
+@public
 class SparseLog(logging.LoggerAdapter[NodeLog]):
     """Logs what is due, each place in the code for itself; made by :class:`NodeLog`.
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
 
+from aioros1._public import public
 from aioros1.master.api import MasterApi
 from aioros1.master.notifier import Notifier
 from aioros1.master.parameters import ParameterTree, ParamUpdate
@@ -44,6 +45,7 @@ _LOG = logging.getLogger("aioros1.master")
 _ROSCORE_PARAMS = {"/rosdistro": "noetic\n", "/rosversion": "1.15.15\n"}
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class MasterStats:
     """What the port of a master has counted."""
@@ -59,6 +61,7 @@ class MasterStats:
     """Requests that had to wait for ``limits.requests_per_second``."""
 
 
+@public
 class Master:
     """A ROS master with its parameter server, in the running event loop.
 

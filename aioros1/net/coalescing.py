@@ -11,6 +11,7 @@ process and back.
 from __future__ import annotations
 
 import asyncio
+from asyncio import _get_running_loop
 from collections.abc import Callable
 from threading import RLock
 from time import perf_counter
@@ -70,7 +71,8 @@ class Coalescer:
         To be called unless :attr:`collects_here`. Raises :class:`RuntimeError` outside the
         loop's thread, and then has changed nothing.
         """
-        self._check_thread("publish()")
+        if _get_running_loop() is not self._loop:
+            self._check_thread("publish()")
         if not self.is_collecting and perf_counter() - self._sent_at < BURST_GAP:
             self.collect()
 

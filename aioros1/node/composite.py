@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Coroutine, Generator
+from collections.abc import Awaitable, Coroutine, Generator
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
+from aioros1._public import public
+from aioros1.core.context import Member
 from aioros1.errors import ClosedError
 from aioros1.node.node import Node
 
 __all__ = ["Composite"]
 
+M = TypeVar("M", bound=Member)
 
+
+@public
 class Composite:
     """Several roles of one node, with tasks of their own, as one object.
 
@@ -52,7 +57,7 @@ class Composite:
         self._node = node
         self._name = name
         self._state = "new"
-        self._owned: list[Any] = []
+        self._owned: list[Member] = []
         self._tasks: set[asyncio.Task[None]] = set()
         self._closing: asyncio.Task[None] | None = None
 
@@ -111,7 +116,7 @@ class Composite:
     def _abort(self) -> None:
         """The node has ended: wake up whoever waits here, tell nobody."""
 
-    async def _own(self, opening: Any) -> Any:
+    async def _own(self, opening: Awaitable[M]) -> M:
         """Await what ``node.advertise`` and the like, or another composite, give; the open
         object, which is closed with this one."""
         member = await opening

@@ -9,6 +9,7 @@ from collections.abc import Awaitable, Callable, Collection, Coroutine, Mapping,
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
+from aioros1._public import public
 from aioros1.clock.clock import Clock
 from aioros1.clock.rate import Rate, period_of
 from aioros1.clock.timer import Timer
@@ -64,6 +65,7 @@ if TYPE_CHECKING:
 __all__ = ["Node"]
 
 
+@public
 class Node(TopicMethods, ServiceMethods, ParamMethods):
     """A node of a ROS graph, in the event loop it is started in.
 

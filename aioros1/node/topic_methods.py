@@ -113,10 +113,20 @@ class TopicMethods:
     def subscribe(
         self,
         topic: str,
-        type: type[Message] | type[GenpyMessage] | str = "*",
+        type: type[GenpyMessage] | str = "*",
         callback: Callable[[Any], object] | Callable[[Any], Awaitable[object]] | None = None,
         *,
         raw: bool = False,
+        **options: Unpack[_SubscriberKeywords],
+    ) -> Opening[Subscriber[Any]]: ...
+    @overload
+    def subscribe(
+        self,
+        topic: str,
+        type: type[Message],
+        callback: Callable[[Any], object] | Callable[[Any], Awaitable[object]] | None = None,
+        *,
+        raw: bool,
         **options: Unpack[_SubscriberKeywords],
     ) -> Opening[Subscriber[Any]]: ...
     def subscribe(

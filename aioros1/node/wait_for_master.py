@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 
+from aioros1._public import public
 from aioros1.errors import MasterError
 from aioros1.node.identity import master_uri_of
 from aioros1.waiting import deadline
@@ -13,6 +14,7 @@ from aioros1.xmlrpc.master_proxy import MasterProxy
 __all__ = ["wait_for_master"]
 
 
+@public
 async def wait_for_master(uri: str | None = None, *, timeout: float | None = None) -> None:
     """Wait until a master answers at ``uri`` (``ROS_MASTER_URI`` by default).
 

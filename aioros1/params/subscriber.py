@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Self
 
+from aioros1._public import public
 from aioros1.core.role import Role
 from aioros1.events import ParamUpdate
 from aioros1.waiting import Waiters
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["ParamSubscriber"]
 
 
+@public
 class ParamSubscriber(Role):
     """Follows a parameter and all below it; made by
     :meth:`aioros1.Node.subscribe_param`."""

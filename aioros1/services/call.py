@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from aioros1._public import public
 from aioros1.errors import ClosedError, ServiceError
 from aioros1.services.side import Side
 
@@ -18,6 +19,7 @@ Q = TypeVar("Q")
 A = TypeVar("A")
 
 
+@public
 class ServiceCall(Generic[Q, A]):
     """A call that waits for its answer; an item of ``async for call in provider``."""
 

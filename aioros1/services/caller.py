@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+from asyncio import _get_running_loop
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
+from aioros1._public import public
 from aioros1.core.role import Role
 from aioros1.errors import (
     ClosedError,
@@ -38,6 +40,7 @@ Q = TypeVar("Q")
 A = TypeVar("A")
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServiceCallerOptions:
     """How a caller was opened; the defaults are those of
@@ -57,6 +60,7 @@ class ServiceCallerOptions:
     """Call with serialised bytes alone, whatever the type of the service."""
 
 
+@public
 class PendingCall(asyncio.Task[A]):
     """A call on its way, from :meth:`ServiceCaller.send_request`; await it for the response."""
 
@@ -64,6 +68,7 @@ class PendingCall(asyncio.Task[A]):
     """Counts the calls of one caller. Local: nothing of it is on the wire."""
 
 
+@public
 class ServiceCaller(Role, Generic[Q, A]):
     """Calls one service; made by :meth:`aioros1.Node.service_caller`.
 
@@ -142,7 +147,8 @@ class ServiceCaller(Role, Generic[Q, A]):
         when it is cancelled the connection is closed, so that an answer that comes late
         is never taken for another call's.
         """
-        self._check_open()
+        if not self._is_open or _get_running_loop() is not self._loop:
+            self._check_open()
         side = self._side
         if fields or request.__class__ is not side.outgoing_class:
             request = side.outgoing(request, fields)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
+from aioros1._public import public
 from aioros1.core.role import Role
 from aioros1.services.call import ServiceCall
 from aioros1.services.provider_connection import Handler
@@ -21,6 +22,7 @@ Q = TypeVar("Q")
 A = TypeVar("A")
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServiceProviderOptions:
     """How a provider was opened; the defaults are those of
@@ -37,6 +39,7 @@ class ServiceProviderOptions:
             raise ValueError(f"max_concurrency must be at least 1, got {self.max_concurrency!r}")
 
 
+@public
 class ServiceProvider(Role, Generic[Q, A]):
     """Answers calls of one service; made by :meth:`aioros1.Node.advertise_service`.
 

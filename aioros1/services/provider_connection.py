@@ -50,13 +50,16 @@ class Provided(Protocol):
     @property
     def is_open(self) -> bool:
         """Whether calls are answered."""
+        ...
 
     @property
     def patience(self) -> float:
         """Seconds that a caller of one call may take for its request."""
+        ...
 
     async def defer(self, request: Any, header: Mapping[str, str]) -> bytes:
         """Leave a call to somebody who answers it later."""
+        ...
 
     def log_error(self, what: str, error: Exception) -> None:
         """Log what has failed."""

@@ -15,8 +15,7 @@ import pytest
 if TYPE_CHECKING:
     import asyncio
 
-    from aioros1.master import Master
-    from aioros1.node import Node
+    from aioros1 import Master, Node
     from aioros1.testing.leaks import LeakCheck
     from aioros1.testing.makers import MakeFlakyProxy, MakeNode
     from aioros1.testing.simulated_clock import SimulatedClock
@@ -75,7 +74,7 @@ async def ros_master(_in_the_loop: None) -> AsyncIterator[Master]:
     ``ROS_MASTER_URI`` is set to it for the test, so that the code under test finds it;
     ``ROS_IP``, ``ROS_HOSTNAME``, ``ROS_NAMESPACE`` and ``ROS_IPV6`` are not set.
     """
-    from aioros1.master import Master
+    from aioros1 import Master
 
     # Without the node /rosout, so that the graph holds what a test puts there.
     async with Master(host="localhost", port=0, rosout=False) as master:

@@ -12,11 +12,10 @@ from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 from aioros1._public import public
+from aioros1.testing.addresses import Address, host_and_port
 from aioros1.testing.flow import ROOM, Direction, Faults, Flow
-from aioros1.waiting import Waiters
 
 __all__ = [
-    "Address",
     "Directions",
     "Flaky",
     "FlakyConnection",
@@ -25,8 +24,6 @@ __all__ = [
 
 Directions = Literal["up", "down", "both"]
 """Which way of a connection a fault is for."""
-
-Address = tuple[socket.AddressFamily, tuple[str, int]]
 
 _BOTH: tuple[Direction, Direction] = ("up", "down")
 
@@ -92,8 +89,8 @@ def directions(direction: Directions) -> tuple[Direction, ...]:
 class FlakyConnection(Flaky):
     """One connection of a client, through the proxy, to the server.
 
-    ``number`` counts the connections of a proxy from 1; ``client`` is the address it came
-    from.
+    A script of :class:`FlakyProxy` is given it, and ``connections`` of that has those that
+    are open.
     """
 
     def __init__(
@@ -105,11 +102,14 @@ class FlakyConnection(Flaky):
         on_closed: Callable[[FlakyConnection], None],
     ) -> None:
         self.number = number
+        """Counts the connections of a proxy, from 1."""
         self.client = client
+        """The address and port that it came from."""
         self.is_open = True
+        """Whether it can still carry bytes; False once it was ended, by whomever."""
         self._loop = asyncio.get_running_loop()
         self._on_closed = on_closed
-        self._closed = Waiters()
+        self._closed = asyncio.Event()
         self._sockets = [sock]
         self._flows: dict[Direction, Flow] = {
             "up": Flow("up", number, faults["up"], self._ended, self.cut),
@@ -118,8 +118,7 @@ class FlakyConnection(Flaky):
 
     def __repr__(self) -> str:
         state = "open" if self.is_open else "closed"
-        host, port = self.client
-        return f"<{type(self).__name__} {self.number} from {host}:{port}, {state}>"
+        return f"<FlakyConnection {self.number} from {host_and_port(*self.client)}, {state}>"
 
     @property
     def bytes_up(self) -> int:
@@ -146,7 +145,7 @@ class FlakyConnection(Flaky):
 
     async def wait_closed(self) -> None:
         """Wait until the connection has ended, whoever ended it."""
-        await self._closed.wait_until(lambda: not self.is_open, timeout=None, what="")
+        await self._closed.wait()
 
     def cut(self) -> None:
         """Reset the connection, to both sides."""
@@ -214,7 +213,7 @@ class FlakyConnection(Flaky):
                 else:
                     _read_away(sock)
             sock.close()
-        self._closed.wake()
+        self._closed.set()
         self._on_closed(self)
 
 

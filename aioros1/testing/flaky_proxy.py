@@ -11,18 +11,16 @@ from dataclasses import replace
 from types import TracebackType
 from typing import Any, Self
 
+from aioros1 import ClosedError
 from aioros1._public import public
-from aioros1.errors import ClosedError
-from aioros1.net.hosts import resolve, uri_host
+from aioros1.testing.addresses import Address, addresses_of, host_and_port
 from aioros1.testing.flaky_connection import (
-    Address,
     Directions,
     Flaky,
     FlakyConnection,
     directions,
 )
 from aioros1.testing.flow import ConnectionLost, Direction, Faults
-from aioros1.waiting import Waiters
 
 __all__ = ["FlakyProxy", "Script"]
 
@@ -89,14 +87,16 @@ class FlakyProxy(Flaky):
         self._socket: socket.socket | None = None
         self._family = socket.AF_INET
         self._listening = False
-        self._waiters = Waiters()
+        self._came = asyncio.Event()  # another one after each connection
+        self._is_closed = False
         self._user: asyncio.Task[Any] | None = None
         self._user_cancelled = False
         self._entered = False
 
     def __repr__(self) -> str:
-        here, there = ((uri_host(host), port) for host, port in (self._own, self._target))
-        return f"<FlakyProxy at {here[0]}:{here[1]} before {there[0]}:{there[1]}>"
+        state = "closed" if self._is_closed else "open" if self._socket is not None else "new"
+        here, there = host_and_port(*self._own), host_and_port(*self._target)
+        return f"<FlakyProxy at {here} before {there}, {state}>"
 
     async def __aenter__(self) -> Self:
         if self._entered:
@@ -105,8 +105,8 @@ class FlakyProxy(Flaky):
         self._loop = asyncio.get_running_loop()
         self._user = asyncio.current_task()
         host, port = self._target
-        self._addresses = [(family, (name, port)) for family, name in await resolve(host, port)]
-        self._family, self.host = (await resolve(self.host, self.port))[0]
+        self._addresses = await addresses_of(host, port)
+        self._family, (self.host, _) = (await addresses_of(*self._own))[0]
         self._socket = self._bound()
         self.port = self._socket.getsockname()[1]
         try:
@@ -127,7 +127,8 @@ class FlakyProxy(Flaky):
         if self._user_cancelled:
             user.uncancel()  # it was ours
         self._stop_listening()
-        self._waiters.fail(ClosedError(f"{self!r} is closed"))
+        self._is_closed = True
+        self._wake()
         for connection in self.connections:
             connection.close()
         tasks = list(self._scripts)
@@ -152,7 +153,10 @@ class FlakyProxy(Flaky):
 
         Raises :class:`~aioros1.ClosedError` when the proxy is closed.
         """
-        await self._waiters.wait_until(lambda: self.accepted >= n, timeout=None, what="")
+        while self.accepted < n:
+            if self._is_closed:
+                raise ClosedError(f"{self!r} has had {self.accepted} connections, not {n}")
+            await self._came.wait()
 
     def cut(self) -> None:
         """Reset every connection, to both sides. New ones are still taken."""
@@ -202,8 +206,7 @@ class FlakyProxy(Flaky):
             sock.bind(self._own)
         except OSError as error:
             sock.close()
-            where = f"{uri_host(self.host)}:{self.port}"
-            text = f"cannot listen on {where}: {error.strerror or error}"
+            text = f"cannot listen on {host_and_port(*self._own)}: {error.strerror or error}"
             raise OSError(error.errno, text) from None
         except BaseException:
             sock.close()
@@ -242,7 +245,12 @@ class FlakyProxy(Flaky):
             self._run_script(connection)
         else:
             connection._connect(self._addresses, lambda: self._run_script(connection))
-        self._waiters.wake()
+        self._wake()
+
+    def _wake(self) -> None:
+        """Let those who wait for connections look again."""
+        self._came.set()
+        self._came = asyncio.Event()
 
     def _closed(self, connection: FlakyConnection) -> None:
         del self._connections[connection.number]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 from typing import TYPE_CHECKING, Any
 
-from aioros1.node import Node
+from aioros1 import Node
+from aioros1._public import public
 
 if TYPE_CHECKING:
     from aioros1.testing.flaky_proxy import FlakyProxy
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["MakeFlakyProxy", "MakeNode"]
 
 
+@public("aioros1.testing")
 class MakeNode:
     """``await make_node("name", **options)``: a started node in the graph of ``master_uri``.
 
@@ -32,6 +34,10 @@ class MakeNode:
         self._stack = stack
         self._clock = clock
 
+    def __repr__(self) -> str:
+        clock = "" if self._clock is None else f", with the time of {self._clock!r}"
+        return f"<MakeNode for the master at {self._master_uri}{clock}>"
+
     async def __call__(self, name: str = "node", **options: Any) -> Node:
         options.setdefault("master_uri", self._master_uri)
         options.setdefault("host", "localhost")
@@ -44,13 +50,20 @@ class MakeNode:
         return node
 
 
+@public("aioros1.testing")
 class MakeFlakyProxy:
     """``await flaky_proxy(host, port, **options)``: an open :class:`FlakyProxy`."""
 
     def __init__(self, stack: contextlib.AsyncExitStack) -> None:
         self._stack = stack
+        self._made = 0
+
+    def __repr__(self) -> str:
+        return f"<MakeFlakyProxy, {self._made} made>"
 
     async def __call__(self, host: str, port: int, **options: Any) -> FlakyProxy:
         from aioros1.testing.flaky_proxy import FlakyProxy
 
-        return await self._stack.enter_async_context(FlakyProxy(host, port, **options))
+        proxy = await self._stack.enter_async_context(FlakyProxy(host, port, **options))
+        self._made += 1
+        return proxy

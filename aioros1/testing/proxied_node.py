@@ -14,7 +14,7 @@ from aioros1._public import public
 from aioros1.testing.flaky_proxy import FlakyProxy, Script
 
 if TYPE_CHECKING:
-    from aioros1.node import Node
+    from aioros1 import Node
 
 __all__ = ["NodeProxies", "proxies_before"]
 

@@ -6,10 +6,8 @@ import asyncio
 from types import TracebackType
 from typing import Any, Self
 
-from aioros1.errors import ClosedError
-from aioros1.node import Node
-from aioros1.time import Duration, Time
-from aioros1.topics.publisher import Publisher
+from aioros1 import ClosedError, Duration, Node, Publisher, Time
+from aioros1._public import public
 
 __all__ = ["SimulatedClock"]
 
@@ -21,6 +19,7 @@ _QUIET_TURNS = 5
 ``gather`` and the like wait for comes by way of callbacks, a turn for each of them."""
 
 
+@public("aioros1.testing")
 class SimulatedClock:
     """Publishes ``/clock``, and waits for what comes of it.
 
@@ -87,6 +86,10 @@ class SimulatedClock:
             pass  # the master has gone, and the parameter with it
         finally:
             await self._node.__aexit__(exc_type, exc, traceback)
+
+    def __repr__(self) -> str:
+        state = "open" if self._node.is_open else "closed" if self._publisher else "new"
+        return f"<SimulatedClock at {self._now} of {self._node.master_uri}, {state}>"
 
     @property
     def now(self) -> Time:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import Any, Generic, Self, TypeVar, overload
 
+from aioros1._public import public
 from aioros1.time import Time
 from aioros1.topics.subscriber import Subscriber
 
@@ -16,6 +17,7 @@ C = TypeVar("C")
 M = TypeVar("M")
 
 
+@public
 class Merge(Generic[M]):
     """An asynchronous iterator over the messages of several subscribers; made by
     :func:`aioros1.merge`.
@@ -77,6 +79,7 @@ def merge(
 ) -> Merge[A | B | C]: ...
 @overload
 def merge(*subscribers: Subscriber[Any]) -> Merge[Any]: ...
+@public
 def merge(*subscribers: Subscriber[Any]) -> Merge[Any]:
     """Iterate over the messages of several subscribers, of one node or of several.
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from aioros1._public import public
 from aioros1.options import DEFAULT_QUEUE_SIZE, Overflow, check_queue
 
 __all__ = ["PublisherOptions", "SubscriberOptions"]
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PublisherOptions:
     """How a publisher was opened; the defaults are those of :meth:`aioros1.Node.advertise`."""
@@ -33,6 +35,7 @@ class PublisherOptions:
         check_queue(self.queue_size, self.overflow)
 
 
+@public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SubscriberOptions:
     """How a subscriber was opened; the defaults are those of :meth:`aioros1.Node.subscribe`."""

@@ -7,6 +7,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from weakref import WeakSet
 
+from aioros1._public import public
 from aioros1.clock.timer import Timer
 from aioros1.core.role import Role
 from aioros1.errors import ClosedError
@@ -30,6 +31,7 @@ __all__ = ["Publisher"]
 M = TypeVar("M", bound=Message)
 
 
+@public
 class Publisher(Role, Generic[M]):
     """Publishes messages of one type on one topic; made by :meth:`Node.advertise`.
 

@@ -9,6 +9,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
+from aioros1._public import public
 from aioros1.core.role import Role
 from aioros1.errors import DeserializationError
 from aioros1.idl.codec import codec_of
@@ -32,11 +33,13 @@ Callback = Callable[[Any], object] | Callable[[Any], Awaitable[object]]
 """A function or a coroutine function that takes a message."""
 
 
+@public
 @dataclass(frozen=True, slots=True)
 class MessageEvent(Generic[M]):
     """A message with what came along with it."""
 
     message: M
+    """The message itself."""
     header: Mapping[str, str]
     """The connection header of the publisher; ``header["callerid"]`` is its name."""
     received: Time
@@ -45,6 +48,7 @@ class MessageEvent(Generic[M]):
     """The serialised message."""
 
 
+@public
 class Subscriber(Role, Generic[M]):
     """Receives messages of a topic; made by :meth:`aioros1.Node.subscribe`.
 

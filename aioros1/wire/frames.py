@@ -100,7 +100,16 @@ class FrameReceiver:
         self._wanted = 0
         self._largest = _FIRST_GUESS
         self.bytes_received = 0
+        """Bytes so far, the lengths of frames included."""
         self.frames_received = 0
+        """Whole frames so far."""
+
+    def __repr__(self) -> str:
+        missing = 0 if self._large is None else self._wanted - self._filled
+        within = f", {missing} bytes of the next are missing" if missing else ""
+        return (
+            f"<FrameReceiver, {self.frames_received} frames in {self.bytes_received} bytes{within}>"
+        )
 
     def buffer(self) -> memoryview:
         """Return the memory that the next bytes go into."""

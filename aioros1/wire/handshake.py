@@ -32,10 +32,15 @@ class TopicOffer:
     """What a node publishes on a topic, or wants to receive from it."""
 
     topic: str
+    """The resolved name of the topic."""
     type: str
+    """``pkg/Type``."""
     md5sum: str
+    """The MD5 sum of the definition."""
     definition: str
+    """The full text of the definition."""
     latching: bool = False
+    """Whether new subscribers get the last message at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +48,11 @@ class ServiceOffer:
     """A service that a node provides, or wants to call."""
 
     service: str
+    """The resolved name of the service."""
     type: str
+    """``pkg/Type``."""
     md5sum: str
+    """The MD5 sum of the definition."""
 
 
 class _Side(ABC):
@@ -52,9 +60,18 @@ class _Side(ABC):
 
     def __init__(self, peer: str, *, max_bytes: int, max_fields: int) -> None:
         self.peer = peer
+        """What the other side is called in errors."""
         self._parser = HeaderParser(max_bytes=max_bytes, max_fields=max_fields)
         self.header: dict[str, str] = {}
         """The header of the other side, once it is complete."""
+
+    def __repr__(self) -> str:
+        state = "has its header" if self.header else "waits for its header"
+        return f"<{type(self).__name__}: {self._wish()} {self.peer}, {state}>"
+
+    @abstractmethod
+    def _wish(self) -> str:
+        """What is between the two sides, for the text of ``repr``."""
 
     @property
     def missing(self) -> int:
@@ -93,6 +110,7 @@ class _Client(_Side):
     """The side that connects and speaks first."""
 
     def data_to_send(self) -> bytes:
+        """The header to send, before anything is received."""
         return encode_header(self._request())
 
     @abstractmethod
@@ -124,8 +142,14 @@ class TopicClient(_Client):
     ) -> None:
         super().__init__(peer, max_bytes=max_bytes, max_fields=max_fields)
         self.caller_id = caller_id
+        """The name of our node."""
         self.wanted = wanted
+        """The topic to ask for."""
         self.tcp_nodelay = tcp_nodelay
+        """Whether to ask for small messages to be sent at once."""
+
+    def _wish(self) -> str:
+        return f"topic {self.wanted.topic} of"
 
     def _request(self) -> dict[str, str]:
         wanted = self.wanted
@@ -176,10 +200,18 @@ class ServiceClient(_Client):
     ) -> None:
         super().__init__(peer, max_bytes=max_bytes, max_fields=max_fields)
         self.caller_id = caller_id
+        """The name of our node."""
         self.wanted = wanted
+        """The service to ask for."""
         self.persistent = persistent
+        """Whether to ask for a connection that carries several calls."""
         self.probe = probe
+        """Whether to ask only if the service is there."""
         self.tcp_nodelay = tcp_nodelay
+        """Whether to ask for small answers to be sent at once."""
+
+    def _wish(self) -> str:
+        return f"service {self.wanted.service} of"
 
     def _request(self) -> dict[str, str]:
         fields = {
@@ -210,6 +242,12 @@ class Server(_Side):
     return the bytes to answer with.
     """
 
+    def _wish(self) -> str:
+        if self.header:
+            service, topic = self.header.get("service"), self.header.get("topic")
+            return f"service {service} to" if service is not None else f"topic {topic} to"
+        return "a connection of"
+
     def _check(self, header: dict[str, str]) -> None:
         if "callerid" in header:
             self.peer = f"{header['callerid']} at {self.peer}"
@@ -221,6 +259,7 @@ class Server(_Side):
 
     @property
     def caller_id(self) -> str:
+        """The name of the node that connects."""
         return self.header.get("callerid", "")
 
     @property
@@ -235,10 +274,12 @@ class Server(_Side):
 
     @property
     def persistent(self) -> bool:
+        """Whether the caller wants to call several times."""
         return self.header.get("persistent") in _TRUE
 
     @property
     def probe(self) -> bool:
+        """Whether the caller only asks if the service is there."""
         return self.header.get("probe") in _TRUE
 
     def accept_topic(

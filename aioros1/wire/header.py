@@ -81,6 +81,9 @@ class HeaderParser:
         self._max_bytes = max_bytes
         self._max_fields = max_fields
 
+    def __repr__(self) -> str:
+        return f"<HeaderParser, {len(self._buffer)} bytes waiting>"
+
     def feed(self, data: bytes) -> dict[str, str] | None:
         """Add ``data``, and return the fields, or None while bytes are missing.
 

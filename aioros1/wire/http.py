@@ -62,11 +62,18 @@ class AnswerReader:
         self.has_begun = False
         """Whether any byte has come, so that the server must have read the request."""
         self.status = 0
+        """The status code; 0 before the head is complete."""
         self.reason = ""
+        """The text behind the status code."""
         self.body = b""
         """The body, once the answer is complete."""
         self.keeps_alive = False
         """Whether the connection can be used again, once the answer is complete."""
+
+    def __repr__(self) -> str:
+        state = "complete" if self._next == _END else "incomplete"
+        what = f"{self.status} {self.reason}".rstrip() if self.status else "no status yet"
+        return f"<AnswerReader: {what}, {state}>"
 
     def receive_data(self, data: bytes) -> bool:
         """Take bytes; whether the answer is complete now. Raises :class:`HttpError`."""

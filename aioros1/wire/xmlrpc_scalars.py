@@ -9,6 +9,8 @@ from collections.abc import Callable
 from datetime import datetime
 from typing import Any, NoReturn
 
+from aioros1._public import public
+
 __all__ = ["BLANK", "INT_MAX", "INT_MIN", "SCALARS", "XmlRpcError", "brief"]
 
 INT_MIN, INT_MAX = -(1 << 31), (1 << 31) - 1
@@ -17,6 +19,7 @@ BLANK = " \t\r\n"
 """White space in XML."""
 
 
+@public("aioros1.wire.xmlrpc")
 class XmlRpcError(ValueError):
     """The received bytes are not an XML-RPC document, or not an acceptable one."""
 

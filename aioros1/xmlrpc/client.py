@@ -7,6 +7,7 @@ URI has none. Some of their answers are not XML-RPC.
 from __future__ import annotations
 
 import math
+from asyncio import _get_running_loop
 from typing import Any
 
 from aioros1.errors import ClosedError
@@ -52,7 +53,8 @@ class XmlRpcClient:
             raise ClosedError("the XML-RPC client is closed")
         if self._loop_state is None:
             self._loop_state = loop_state()
-        self._loop_state.check_thread(method)
+        if _get_running_loop() is not self._loop_state.loop:
+            self._loop_state.check_thread(method)
         try:
             server = server_at(uri)
         except ValueError:

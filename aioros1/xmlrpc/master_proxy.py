@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
+from aioros1._public import public
 from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.xmlrpc.answers import as_it_is, call_triple
 
@@ -17,21 +18,29 @@ __all__ = ["MasterProxy", "SystemState", "TopicType", "topic_types"]
 T = TypeVar("T")
 
 
+@public
 class TopicType(NamedTuple):
     """A topic and the type that its publishers announced."""
 
     name: str
+    """The full name of the topic."""
     type: str
+    """``pkg/Type``, or ``*`` when only subscribers to any type announced it."""
 
 
+@public
 class SystemState(NamedTuple):
     """Who does what: topic or service name to the names of the nodes."""
 
     publishers: dict[str, list[str]]
+    """Topic to the nodes that publish it."""
     subscribers: dict[str, list[str]]
+    """Topic to the nodes that receive it."""
     services: dict[str, list[str]]
+    """Service to the nodes that provide it."""
 
 
+@public
 class MasterProxy:
     """The master that a node belongs to.
 
@@ -45,9 +54,14 @@ class MasterProxy:
         self._client = client
         self._timeout = timeout
         self.uri = uri
+        """The URI of the master."""
         self.caller_id = caller_id
+        """The name of the node that asks."""
         self.last_seen: float | None = None
         """When the master last answered, by :func:`time.monotonic`."""
+
+    def __repr__(self) -> str:
+        return f"<MasterProxy of {self.uri} for {self.caller_id}>"
 
     async def call(self, method: str, *params: Any, read: Callable[[Any], T] = as_it_is) -> T:
         """Any method of the master's; the caller id is put in front.
@@ -106,6 +120,7 @@ class MasterProxy:
         return await self.call("registerPublisher", topic, type, uri, read=_strings)
 
     async def unregister_publisher(self, topic: str, uri: str) -> int:
+        """Take a publisher back; 1 if it was registered, else 0."""
         return await self.call("unregisterPublisher", topic, uri, read=int)
 
     async def register_subscriber(self, topic: str, type: str, uri: str) -> list[str]:
@@ -113,6 +128,7 @@ class MasterProxy:
         return await self.call("registerSubscriber", topic, type, uri, read=_strings)
 
     async def unregister_subscriber(self, topic: str, uri: str) -> int:
+        """Take a subscriber back; 1 if it was registered, else 0."""
         return await self.call("unregisterSubscriber", topic, uri, read=int)
 
     async def register_service(self, service: str, service_uri: str, uri: str) -> None:
@@ -120,26 +136,33 @@ class MasterProxy:
         await self.call("registerService", service, service_uri, uri)
 
     async def unregister_service(self, service: str, service_uri: str) -> int:
+        """Take a provider back; 1 if it was registered, else 0."""
         return await self.call("unregisterService", service, service_uri, read=int)
 
     # parameters
 
     async def get_param(self, key: str) -> Any:
+        """The value of a parameter, or of all below it as a dict."""
         return await self.call("getParam", key)
 
     async def set_param(self, key: str, value: Any) -> None:
+        """Set a parameter; a dict sets all below it."""
         await self.call("setParam", key, value)
 
     async def has_param(self, key: str) -> bool:
+        """Whether a parameter is set."""
         return await self.call("hasParam", key, read=bool)
 
     async def delete_param(self, key: str) -> None:
+        """Delete a parameter and all below it."""
         await self.call("deleteParam", key)
 
     async def search_param(self, key: str) -> str:
+        """The full name of the parameter that is found by going up the namespaces."""
         return await self.call("searchParam", key, read=str)
 
     async def get_param_names(self) -> list[str]:
+        """The full names of all parameters."""
         return await self.call("getParamNames", read=_strings)
 
     async def subscribe_param(self, key: str, uri: str) -> Any:
@@ -147,6 +170,7 @@ class MasterProxy:
         return await self.call("subscribeParam", uri, key)
 
     async def unsubscribe_param(self, key: str, uri: str) -> int:
+        """End :meth:`subscribe_param`; 1 if there was one, else 0."""
         return await self.call("unsubscribeParam", uri, key, read=int)
 
 

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
+from aioros1._public import public
 from aioros1.errors import PeerError, PeerUnreachable
 from aioros1.xmlrpc.answers import as_it_is, call_triple
 from aioros1.xmlrpc.master_proxy import TopicType, topic_types
@@ -27,63 +28,103 @@ __all__ = [
 T = TypeVar("T")
 
 
+@public
 class PublishConnection(NamedTuple):
+    """What was sent to one subscriber."""
+
     connection_id: int
+    """The id of the connection, unique within the node."""
     bytes_sent: int
+    """Bytes that were sent."""
     num_sent: int
+    """Messages that were sent."""
     connected: bool
+    """Whether the connection is open."""
 
 
+@public
 class PublishStats(NamedTuple):
     """What was published on one topic."""
 
     topic: str
+    """The topic."""
     bytes_published: int
+    """Bytes of messages, counted once however many subscribers there are."""
     connections: list[PublishConnection]
+    """One row for each subscriber."""
 
 
+@public
 class SubscribeConnection(NamedTuple):
+    """What was received from one publisher."""
+
     connection_id: int
+    """The id of the connection, unique within the node."""
     bytes_received: int
+    """Bytes that were received."""
     num_received: int
     """-1 when the node does not say; the documented answer has no such number."""
     drop_estimate: int
     """-1 when the node does not know, as the reference programs never do."""
     connected: bool
+    """Whether the connection is open."""
 
 
+@public
 class SubscribeStats(NamedTuple):
     """What was received on one topic."""
 
     topic: str
+    """The topic."""
     connections: list[SubscribeConnection]
+    """One row for each publisher."""
 
 
+@public
 class ServiceStats(NamedTuple):
+    """What the services of a node have done, in all."""
+
     num_requests: int
+    """Requests that were answered."""
     bytes_received: int
+    """Bytes of requests."""
     bytes_sent: int
+    """Bytes of responses."""
 
 
+@public
 class BusStats(NamedTuple):
+    """Counters of a node: the answer of ``getBusStats``."""
+
     publish: list[PublishStats]
+    """One row for each topic that the node publishes."""
     subscribe: list[SubscribeStats]
+    """One row for each topic that the node receives."""
     service: ServiceStats | None
     """None when the node does not say, as the reference programs do not."""
 
 
+@public
 class BusInfo(NamedTuple):
     """One connection of a node."""
 
     connection_id: int
+    """The id of the connection, unique within the node."""
     destination: str
+    """The name or the URI of the other node."""
     direction: Literal["i", "o", "b"]
+    """Whether messages come in, go out, or both."""
     transport: str
+    """``TCPROS``, or another transport that the node has."""
     topic: str
+    """The topic or service."""
     connected: bool
+    """Whether the connection is open."""
     info: str = ""
+    """A description for people; empty when the node gives none."""
 
 
+@public
 class NodeProxy:
     """Another node.
 
@@ -95,7 +136,12 @@ class NodeProxy:
         self._client = client
         self._caller_id = caller_id
         self.uri = uri
+        """The URI of the node's slave API."""
         self.name = name
+        """The name by which the node was looked up; empty if it was not."""
+
+    def __repr__(self) -> str:
+        return f"<NodeProxy of {self.name or 'a node'} at {self.uri}>"
 
     async def call(
         self,
@@ -139,12 +185,15 @@ class NodeProxy:
                 raise
 
     async def get_pid(self) -> int:
+        """The process id of the node."""
         return await self.call("getPid", read=int)
 
     async def get_subscriptions(self) -> list[TopicType]:
+        """The topics that the node receives, with their types."""
         return await self.call("getSubscriptions", read=topic_types)
 
     async def get_publications(self) -> list[TopicType]:
+        """The topics that the node publishes, with their types."""
         return await self.call("getPublications", read=topic_types)
 
     async def request_topic(self, topic: str, protocols: Sequence[Sequence[Any]]) -> list[Any]:

@@ -2,7 +2,8 @@
 
 A name with one leading underscore belongs to its package (``aioros1/topics``), or to its file
 where that stands alone (``aioros1/time.py``). A subclass may use what it inherits, by ``self``;
-in packages that stand on public names, not even that.
+in packages that stand on public names, not even that, but for what
+:class:`aioros1.Composite` has for classes that are derived from it.
 """
 
 from __future__ import annotations
@@ -14,7 +15,14 @@ from dataclasses import dataclass
 from .floors import PUBLIC_ONLY
 from .tree import Module
 
-__all__ = ["GENPY", "INSIDE_PYTHON", "NAMED_TUPLES", "InsidePython", "touched"]
+__all__ = [
+    "FOR_COMPOSITES",
+    "GENPY",
+    "INSIDE_PYTHON",
+    "NAMED_TUPLES",
+    "InsidePython",
+    "touched",
+]
 
 GENPY = frozenset(
     {
@@ -32,6 +40,10 @@ GENPY = frozenset(
 
 NAMED_TUPLES = frozenset(["_asdict", "_field_defaults", "_fields", "_make", "_replace"])
 """Public attributes of named tuples, which Python named so."""
+
+
+FOR_COMPOSITES = frozenset(["_abort", "_check_open", "_close", "_create_task", "_open", "_own"])
+"""What a class derived from :class:`aioros1.Composite` may use of it, or replace."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +89,7 @@ def touched(
     own: dict[str, set[str]] = {}
     for module in modules.values():
         own.setdefault(module.entry, set()).update(_defined(module.tree))
+    composites = {entry: _composites(modules, entry) for entry in PUBLIC_ONLY}
     excused = {(one.module, one.name) for one in inside}
     used = set[tuple[str, str]]()
     for module in modules.values():
@@ -86,6 +99,16 @@ def touched(
                 continue
             if (module.name, name) in excused:
                 used.add((module.name, name))
+            elif (
+                owner in ("self", "super()")
+                and name in FOR_COMPOSITES
+                and any(
+                    each.lineno <= line <= (each.end_lineno or 0)
+                    for each in _classes(module)
+                    if each.name in composites.get(module.entry, ())
+                )
+            ):
+                continue
             elif owner not in ("self", "cls", "super()") or module.entry in PUBLIC_ONLY:
                 yield (
                     f"{module.place(line)}: {owner}.{name} is private to another package; "
@@ -95,6 +118,24 @@ def touched(
         if module_name in modules:
             place = modules[module_name].place(1)
             yield f"{place}: {name} is not used any more; take it out of INSIDE_PYTHON"
+
+
+def _classes(module: Module) -> Iterator[ast.ClassDef]:
+    return (node for node in ast.walk(module.tree) if isinstance(node, ast.ClassDef))
+
+
+def _composites(modules: dict[str, Module], entry: str) -> set[str]:
+    """The classes of a package that are derived from Composite, some by way of others."""
+    found = {"Composite"}
+    classes = [
+        each for module in modules.values() if module.entry == entry for each in _classes(module)
+    ]
+    for _ in classes:
+        for each in classes:
+            bases = (base.value if isinstance(base, ast.Subscript) else base for base in each.bases)
+            if any(ast.unparse(base).rpartition(".")[2] in found for base in bases):
+                found.add(each.name)
+    return found
 
 
 def _is_private(name: str) -> bool:

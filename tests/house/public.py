@@ -32,6 +32,7 @@ __all__ = [
 
 MODULES = (
     "aioros1",
+    "aioros1.idl",
     "aioros1.names",
     "aioros1.testing",
     "aioros1.wire.frames",
@@ -175,12 +176,15 @@ def undescribed(names: dict[str, Public]) -> Iterator[str]:
 
 
 def speechless(names: dict[str, Public]) -> Iterator[str]:
-    """Classes whose instances only show an address."""
+    """Classes whose instances only show an address; those of services have no instances."""
+    from aioros1 import Action, Service
+
     for one in names.values():
         cls = one.value
         if (
             isinstance(cls, type)
             and cls.__repr__ is object.__repr__
+            and not issubclass(cls, Action | Service)
             and not getattr(cls, "_is_protocol", False)
         ):
             yield f"{one.place}: its repr tells only an address; give it one with name and state"
@@ -333,7 +337,8 @@ def _looked_up(name: str, module: ModuleType, tree: ast.Module) -> object:
         return vars(module)[name]
     if name in _imported(tree):
         source, original = _imported(tree)[name]
-        return getattr(import_module(source), original, None)
+        if source.partition(".")[0] == "aioros1":
+            return getattr(import_module(source), original, None)
     return None
 
 

@@ -95,6 +95,32 @@ def test_what_is_inherited_is_for_parts_of_the_node_only(tmp_path):
     ]  # fmt: skip
 
 
+COMPOSITES = """
+class Base(aioros1.Composite):
+    async def _open(self):
+        self.pub = await self._own(self.node.advertise("a", "b/C"))
+
+class Client(Base, Generic[T]):
+    async def _close(self):
+        self._check_open()
+        await super()._close()
+        self._create_task(self._finish())
+
+class Other:
+    def f(self):
+        return self._own(1)
+"""
+
+
+def test_composites_use_what_they_inherit_for_that(tmp_path):
+    modules = tree_of(
+        tmp_path, node__composite="class Composite:\n    _own = 1", bond__a=COMPOSITES
+    )
+    assert sorted(found.partition(" is ")[0] for found in touched(modules, ())) == [
+        "aioros1/bond/a.py:10: self._finish", "aioros1/bond/a.py:14: self._own",
+    ]  # fmt: skip
+
+
 def test_public_names_of_others_may_begin_with_an_underscore(tmp_path):
     text = "def f(cls, it): return cls._type, it._md5sum, it._replace(), it.__class__, it.a_, it._"
     assert not list(touched(tree_of(tmp_path, topics__a=text), ()))

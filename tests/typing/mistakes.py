@@ -80,3 +80,55 @@ async def wrong_services(node: aioros1.Node) -> None:
     async with node.advertise_service("flip", SetBool) as provider:
         async for call in provider:
             await call.reply(Trigger.Response())  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+
+
+async def wrong_callbacks(node: aioros1.Node) -> None:
+    def takes_another(message: Int32) -> None: ...
+    async def awaits_another(message: Int32) -> None: ...
+
+    await node.subscribe("chatter", String, takes_another)  # type: ignore[arg-type]  # pyright: ignore[reportCallIssue, reportArgumentType]
+    await node.subscribe("chatter", String, awaits_another)  # type: ignore[arg-type]  # pyright: ignore[reportCallIssue, reportArgumentType]
+    await node.subscribe("chatter", String, "takes_another")  # type: ignore[call-overload]  # pyright: ignore[reportCallIssue, reportArgumentType]
+
+
+async def wrong_raw_services(node: aioros1.Node) -> None:
+    def answers_with_text(request: bytes) -> str:
+        return ""
+
+    def takes_a_request(request: SetBool.Request) -> bytes:
+        return b""
+
+    await node.advertise_service("flip", SetBool, answers_with_text, raw=True)  # type: ignore[arg-type]  # pyright: ignore[reportCallIssue, reportArgumentType]
+    await node.advertise_service("flip", SetBool, takes_a_request, raw=True)  # type: ignore[arg-type]  # pyright: ignore[reportCallIssue, reportArgumentType]
+    caller = await node.service_caller("flip", SetBool)
+    await caller.call_raw(SetBool.Request())  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    async with node.advertise_service("flip", "*", raw=True) as provider:
+        async for call in provider:
+            await call.reply("text")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+
+
+async def wrong_tasks(node: aioros1.Node) -> None:
+    async def work() -> int:
+        return 1
+
+    node.create_task(work)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    result: int = await node.create_task(work())  # type: ignore[func-returns-value, assignment]  # pyright: ignore[reportAssignmentType]
+    print(result)
+
+
+class WrongComposite(aioros1.Composite):
+    async def _open(self) -> None:
+        sub = await self._own(self.node.subscribe("chatter", String))
+        wrong: Int32 = await sub.get()  # type: ignore[assignment]  # pyright: ignore[reportAssignmentType]
+        print(wrong)
+        await self._own(self.node.sleep(1))  # type: ignore[type-var]  # pyright: ignore[reportArgumentType]
+        self._create_task(print)  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+
+    def _abort(self) -> int:  # type: ignore[override]  # pyright: ignore[reportIncompatibleMethodOverride]
+        return 1
+
+
+async def wrong_composites(node: aioros1.Node) -> None:
+    WrongComposite("node")  # type: ignore[arg-type]  # pyright: ignore[reportArgumentType]
+    wrong: WrongComposite = WrongComposite(node)
+    print((await wrong).nam)  # type: ignore[attr-defined]  # pyright: ignore[reportAttributeAccessIssue]

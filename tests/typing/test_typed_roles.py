@@ -8,7 +8,14 @@ from collections.abc import Awaitable, Callable, Mapping
 from typing import Any, TypeAlias, assert_type
 
 import aioros1
-from aioros1 import MessageEvent, Publisher, ServiceCaller, ServiceProvider, Subscriber
+from aioros1 import (
+    AnyMessage,
+    MessageEvent,
+    Publisher,
+    ServiceCaller,
+    ServiceProvider,
+    Subscriber,
+)
 from aioros1.msg.std_msgs import Int32, String
 from aioros1.srv.std_srvs import SetBool
 
@@ -103,6 +110,108 @@ async def test_services(make_node: MakeNode) -> None:
         assert_type(await caller.send_request({"data": True}), SetBool.Response)
     named = await node.service_caller("plain", "std_srvs/SetBool", persistent=True)
     assert_type(named, ServiceCaller[Any, Any])
+
+
+async def test_callbacks(make_node: MakeNode) -> None:
+    node = await make_node()
+    got: asyncio.Queue[str] = asyncio.Queue()
+
+    def plain(message: String) -> None:
+        assert_type(message.data, str)
+        got.put_nowait(message.data)
+
+    async def waiting(message: String) -> None:
+        await got.put(message.data)
+
+    def serialised(message: bytes) -> None:
+        got.put_nowait(String.from_bytes(message).data)
+
+    def anyhow(message: AnyMessage) -> None:
+        got.put_nowait(message.data)
+
+    pub = await node.advertise("chatter", String, latch=True)
+    pub.publish(data="hi")
+    assert_type(await node.subscribe("chatter", String, plain), Subscriber[String])
+    assert_type(await node.subscribe("chatter", String, waiting), Subscriber[String])
+    assert_type(await node.subscribe("chatter", String, serialised, raw=True), Subscriber[bytes])
+    assert_type(await node.subscribe("chatter", "*", serialised, raw=True), Subscriber[bytes])
+    named = await node.subscribe("chatter", "std_msgs/String", lambda m: got.put_nowait(m.data))
+    assert_type(named, Subscriber[Any])
+    anything = await node.subscribe("chatter", callback=anyhow)
+    assert_type(anything, Subscriber[AnyMessage])
+    for _ in range(6):
+        assert await asyncio.wait_for(got.get(), 5) == "hi"
+
+
+async def test_raw_services(make_node: MakeNode) -> None:
+    node = await make_node()
+
+    async def answer(request: bytes) -> bytes:
+        return SetBool.Response(success=SetBool.Request.from_bytes(request).data).to_bytes()
+
+    provider = await node.advertise_service("flip", SetBool, answer, raw=True)
+    assert_type(provider, ServiceProvider[bytes, bytes])
+    request = SetBool.Request(data=True).to_bytes()
+    async with node.service_caller("flip", SetBool) as caller:
+        assert_type(await caller.call_raw(request, timeout=5), bytes)
+    async with node.service_caller("flip", SetBool, raw=True) as raw:
+        assert SetBool.Response.from_bytes(await raw.call(request, timeout=5)).success
+    async with node.advertise_service("any", "*", raw=True) as taker:
+        assert_type(taker, ServiceProvider[bytes, bytes])
+
+
+async def test_tasks(make_node: MakeNode) -> None:
+    node = await make_node()
+
+    async def work(count: int) -> str:
+        await asyncio.sleep(0)
+        return "done" * count
+
+    task = node.create_task(work(2), name="work")
+    assert_type(task, asyncio.Task[None])
+    assert_type(await task, None)
+
+
+class Relay(aioros1.Composite):
+    """Two topics and a task."""
+
+    def __init__(self, node: aioros1.Node) -> None:
+        super().__init__(node, "relay")
+        self.relayed = 0
+
+    async def _open(self) -> None:
+        self._pub = await self._own(self.node.advertise("copy", String, latch=True))
+        assert_type(self._pub, Publisher[String])
+        self._sub = await self._own(self.node.subscribe("chatter", String))
+        assert_type(self._create_task(self._relay()), asyncio.Task[None])
+
+    async def _relay(self) -> None:
+        async for message in self._sub:
+            self._pub.publish(message)
+            self.relayed += 1
+
+
+class Pair(aioros1.Composite):
+    """A composite that owns another one."""
+
+    async def _open(self) -> None:
+        self.relay = await self._own(Relay(self.node))
+        assert_type(self.relay, Relay)
+
+
+async def test_composites(make_node: MakeNode) -> None:
+    node = await make_node()
+    pub = await node.advertise("chatter", String, latch=True)
+    pub.publish(data="hi")
+    async with Relay(node) as relay:
+        assert_type(relay, Relay)
+        assert_type(relay.node, aioros1.Node)
+        assert_type(await node.wait_for_message("copy", String, timeout=5), String)
+    pair = await Pair(node)
+    assert_type(pair, Pair)
+    assert_type(pair.relay.relayed, int)
+    await pair.close()
+    assert not pair.relay.is_open
 
 
 async def test_calls_that_are_answered_later(make_node: MakeNode) -> None:
