@@ -94,7 +94,7 @@ class Role(ABC):
         try:
             await self._close()
         finally:
-            self._context.dismiss(self)
+            self._context.members.pop(self, None)
 
     @abstractmethod
     async def _close(self) -> None: ...

@@ -7,7 +7,7 @@ import socket
 from collections.abc import Callable
 from typing import TypeVar
 
-from aioros1.net.hosts import is_loopback, resolve
+from aioros1.net.hosts import all_loopback, resolve
 
 __all__ = ["connect"]
 
@@ -27,7 +27,7 @@ async def connect(factory: Callable[[], P], host: str, port: int) -> tuple[async
     Raises :class:`OSError`.
     """
     addresses = await resolve(host, port)
-    if len(addresses) > 1 and not all(is_loopback(address) for _, address in addresses):
+    if len(addresses) > 1 and not all_loopback(addresses):
         return await _race(factory, host, addresses, port)
     failures: list[OSError] = []
     for address in addresses:  # this machine answers at once

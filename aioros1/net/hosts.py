@@ -11,10 +11,11 @@ import contextlib
 import ipaddress
 import os
 import socket
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 __all__ = [
     "advertised_host",
+    "all_loopback",
     "bind_address_for",
     "bind_sockets",
     "every_interface",
@@ -122,6 +123,11 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host.strip("[]")).is_loopback
     except ValueError:
         return False
+
+
+def all_loopback(addresses: Iterable[tuple[socket.AddressFamily, str]]) -> bool:
+    """Whether each of these is a loopback address: what :func:`resolve` gives for this machine."""
+    return all(map(is_loopback, (address for _, address in addresses)))
 
 
 def is_local(host: str) -> bool:

@@ -28,7 +28,9 @@ class RateLimit:
             full_at = now
         full_at = max(full_at, now) + count / self._rate
         self._full_at[key] = full_at
-        return max(0.0, full_at - now - self._burst / self._rate)
+        wait = full_at - now - self._burst / self._rate
+        # Less is a rounding error, which grows with the time that the machine has been up.
+        return wait if wait > 1e-6 else 0.0
 
     def give_back(self, key: str, count: int = 1) -> None:
         """Undo a :meth:`take`."""

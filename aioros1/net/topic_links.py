@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
-from aioros1.net.loop_state import loop_state
 from aioros1.net.tcpros import Stream
 from aioros1.wire.frames import FrameError, FrameReceiver
 from aioros1.wire.handshake import TopicOffer
@@ -57,6 +56,7 @@ class IncomingLink(asyncio.BufferedProtocol):
         deliver: Callable[[list[Received]], None],
         on_closed: Callable[[], None],
         clock: Callable[[], int],
+        buffer: memoryview,
         *,
         max_bytes: int,
     ) -> None:
@@ -73,7 +73,7 @@ class IncomingLink(asyncio.BufferedProtocol):
         self._clock = clock
         self._stream = stream  # a StreamWriter that is collected closes its transport
         self._transport: asyncio.Transport | None = None
-        self._receiver = FrameReceiver(self, loop_state().receive_buffer, max_bytes=max_bytes)
+        self._receiver = FrameReceiver(self, buffer, max_bytes=max_bytes)
         self._pauses = 0
         self._seen = 0
 

@@ -181,7 +181,7 @@ class Composite:
             while self._owned:
                 await self._owned.pop().close()
         finally:
-            self._node._context.dismiss(self)
+            self._node._context.members.pop(self, None)
 
     def _drop(self) -> None:
         self._state = "closed"

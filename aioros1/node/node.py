@@ -28,6 +28,7 @@ from aioros1.idl import MessageStore, default_store
 from aioros1.log.levels import LevelChanges
 from aioros1.log.node_log import NodeLog
 from aioros1.net.allow import AllowList
+from aioros1.net.loop_state import loop_state
 from aioros1.node.acceptor import Acceptor
 from aioros1.node.closing import close_members
 from aioros1.node.heartbeat import Heartbeat
@@ -243,6 +244,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         if self._supervisor.state != "new":
             raise RuntimeError(f"node {self.name} was started before; make a new Node")
         self._supervisor.state = "starting"
+        self._context.loop_state = loop_state()
         await self._supervisor.start()
         return self
 
@@ -257,7 +259,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         if supervisor.state == "new":
             supervisor.state = "closed"
             return
-        supervisor.check_loop()
+        self._context.check_loop()
         if timeout is not None:
             self._close_timeout = timeout
         supervisor.end("closed")

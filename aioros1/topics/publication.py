@@ -21,7 +21,6 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
 from aioros1.errors import Md5MismatchError
-from aioros1.net.loop_state import loop_state
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
 from aioros1.waiting import Waiters
@@ -69,7 +68,7 @@ class Publication(Shared[Publishing]):
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         # Plain attributes, for they are looked at for every message.
-        self.coalescer = loop_state().coalescer
+        self.coalescer = context.loop_state.coalescer
         self.is_congested = False
         """Whether messages wait in the queue of any connection."""
         self.has_subscribers = False

@@ -160,7 +160,7 @@ async def test_a_host_that_asks_a_master_too_often_delays_only_itself(make_node)
         aioros1.Master("localhost", port=0, rosout=False, limits=limits) as master,
         dialled_from(ELSEWHERE, master.port, GET_PID * 201) as greedy,
     ):
-        await until(lambda: master.stats.requests_delayed)
+        await until(lambda: master.stats.requests_delayed == 1)
         node = await make_node("node", master_uri=master.uri, heartbeat=None)
         await node.set_param("a", 1)
         assert await node.get_param("a") == 1
@@ -175,7 +175,7 @@ async def test_a_node_that_has_to_wait_is_registered_all_the_same(make_node):
             *(node.advertise(f"~topic{number}", String) for node in nodes for number in range(5))
         )
         assert len((await nodes[0].graph.snapshot()).topics) >= 15
-        assert master.stats.requests_delayed > 0
+        assert master.stats.requests_delayed == 1
 
 
 async def test_a_node_has_the_same_limits_for_its_slave_api(make_node):
@@ -183,7 +183,7 @@ async def test_a_node_has_the_same_limits_for_its_slave_api(make_node):
     node = await make_node("node", limits=limits)
     _, xmlrpc = ports(node)
     async with dialled_from(ELSEWHERE, xmlrpc, GET_PID * 4):
-        await until(lambda: node.stats.requests_delayed)
+        await until(lambda: node.stats.requests_delayed == 1)
         async with dialled_from(HERE, xmlrpc, GET_PID) as wire:
             assert await is_answered(wire)
 

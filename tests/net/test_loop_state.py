@@ -126,6 +126,7 @@ async def send_and_receive(letter: bytes) -> tuple[int, set[bytes]]:
             deliver,
             done.set,
             lambda: 0,
+            loop_state().receive_buffer,
             max_bytes=1 << 20,
         )
         rest = await take_over(stream, link)
