@@ -175,7 +175,7 @@ async def test_a_node_that_has_to_wait_is_registered_all_the_same(make_node):
             *(node.advertise(f"~topic{number}", String) for node in nodes for number in range(5))
         )
         assert len((await nodes[0].graph.snapshot()).topics) >= 15
-        assert master.stats.requests_delayed == 1
+        assert master.stats.requests_delayed > 0
 
 
 async def test_a_node_has_the_same_limits_for_its_slave_api(make_node):
