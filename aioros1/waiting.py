@@ -225,17 +225,11 @@ class Mutex:
 
     def __init__(self) -> None:
         self.is_held = False
-        """Whether somebody has the lock; to be read only."""
+        """Whether somebody has the lock. While it is False nobody waits either, and setting it
+        to True takes the lock, without a call."""
         # Each is resolved when the lock is its own. While anyone waits the lock is held: it
         # is handed over, and never free in between.
         self._waiters: deque[asyncio.Future[None]] = deque()
-
-    def try_acquire(self) -> bool:
-        """Take the lock if nobody has it or waits for it; whether it was taken."""
-        if self.is_held:
-            return False
-        self.is_held = True
-        return True
 
     async def acquire(self) -> None:
         """Take the lock, as soon as all who came before have released it."""

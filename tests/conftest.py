@@ -50,6 +50,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         test = getattr(item, "originalname", None) or item.name
         if is_listed(SLOW, file, test):
             item.add_marker(pytest.mark.slow)
+            if not item.get_closest_marker("timeout"):
+                # What fixtures start, or compile, has limits of its own.
+                item.add_marker(pytest.mark.timeout(300, func_only=True))
         if is_listed(ONCE, file, test):
             item.add_marker(pytest.mark.once)
 

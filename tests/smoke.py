@@ -30,10 +30,10 @@ async def main() -> None:
         node.subscribe("chatter") as sub,
         node.advertise_service("flip", SetBool, lambda request: {"success": not request.data}),
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish(data="hello")
-        assert await sub.get(timeout=5) == String(data="hello")
-        assert (await node.call("flip", SetBool, data=False, timeout=5)).success
+        assert await sub.get(timeout=30) == String(data="hello")
+        assert (await node.call("flip", SetBool, data=False, timeout=30)).success
     print("aioros1", aioros1.__version__, "works from", aioros1.__file__)
 
 

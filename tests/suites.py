@@ -30,6 +30,7 @@ SLOW = (
     "cli/test_master.py",
     "contrib/test_threads.py::test_a_process_that_was_forked_is_told_that_it_has_no_node",
     "contrib/test_threads.py::test_a_program_that_forgets_to_close_it_does_so_on_its_way_out",
+    "faults/test_closing.py::test_a_node_that_was_never_closed_is_warned_of_and_freed",
     "test_docs.py::test_programs_run",
     "test_docs.py::test_tests_pass",
     "test_embedding.py::test_no_warning_in_debug_mode_with_warnings_as_errors",
@@ -39,6 +40,11 @@ SLOW = (
     "testing/test_pytest_plugin.py",
     "topics/test_local_transports.py::test_another_process_of_the_host",
     # many messages, connections or bytes, or memory and calls that are counted
+    "idl/test_bundle.py::test_all_can_be_sent",
+    "idl/test_bundle.py::test_debian_has_what_its_table_says",
+    "idl/test_hostile.py::test_a_length_that_is_not_there_costs_no_memory",
+    "idl/test_hostile.py::test_messages_without_octets_in_rows_are_bounded",
+    "idl/test_hostile.py::test_messages_without_octets_inside_one_another_are_bounded",
     "idl/test_hostile.py::test_the_text_of_a_definition_is_not_kept_once_for_each_type",
     "idl/test_hostile.py::test_twice_the_types_take_twice_the_time",
     "idl/test_hostile.py::test_types_of_many_fields_can_be_used",
@@ -53,6 +59,8 @@ SLOW = (
     "idl/test_codec_properties.py",
     "idl/test_convert.py::test_any_message_survives_in_json_form",
     "idl/test_convert.py::test_any_message_survives_yaml_as_it_is",
+    "idl/test_layouts.py::test_damaged_octets",
+    "master/test_parameters.py::test_what_was_read_does_not_change",
 )
 
 ONCE = (

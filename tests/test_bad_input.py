@@ -162,7 +162,7 @@ async def test_what_is_no_uri_of_a_master(uri):
         aioros1.Node("demo", master_uri=uri)
     assert repr(uri) in str(caught.value)
     with pytest.raises(ValueError, match="expected http://host:port"):
-        await aioros1.wait_for_master(uri, timeout=5)
+        await aioros1.wait_for_master(uri, timeout=30)
 
 
 @contextlib.asynccontextmanager

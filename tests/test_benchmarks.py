@@ -59,7 +59,6 @@ def run(*words: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.timeout(300)  # some fifty processes, on a machine that may be busy
 def test_every_suite_measures_this_library(tmp_path: Path) -> None:
     path = tmp_path / "figures.json"
     names = sorted({name for cases in CASES.values() for name in cases})

@@ -57,4 +57,4 @@ async def test_what_a_predicate_raises_is_raised(make_node):
 
     node = await make_node()
     with pytest.raises(LookupError, match="mine"):
-        await node.graph.wait_for(predicate, timeout=5)
+        await node.graph.wait_for(predicate, timeout=30)

@@ -64,7 +64,7 @@ async def test_a_signal_closes_the_node_and_main_returns(master, number):
     assert process.stdout is not None
     assert await process.stdout.readline() == b"ready /robot/talker\n"
     process.send_signal(number)
-    output, errors = await asyncio.wait_for(process.communicate(), 20)
+    output, errors = await asyncio.wait_for(process.communicate(), 40)
     assert (output, errors, process.returncode) == (b"ended True\n", b"", 0)
 
 
@@ -74,7 +74,7 @@ async def test_a_main_that_does_not_end_is_cancelled(master):
     assert process.stdout is not None
     await process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    output, errors = await asyncio.wait_for(process.communicate(), 20)
+    output, errors = await asyncio.wait_for(process.communicate(), 40)
     assert (output, errors) == (b"cancelled\nended None\n", b"")
 
 
@@ -89,9 +89,9 @@ async def test_a_signal_while_the_node_waits_for_its_master(number):
     try:
         port = server.sockets[0].getsockname()[1]
         process = await start(STUBBORN, f"http://127.0.0.1:{port}")
-        writer = await asyncio.wait_for(connected, 20)
+        writer = await asyncio.wait_for(connected, 40)
         process.send_signal(number)
-        output, errors = await asyncio.wait_for(process.communicate(), 20)
+        output, errors = await asyncio.wait_for(process.communicate(), 40)
         assert (output, errors, process.returncode) == (b"ended None\n", b"", 0)
         writer.close()
     finally:
@@ -102,7 +102,7 @@ async def test_a_signal_while_the_node_waits_for_its_master(number):
 async def test_what_main_raises_is_raised(master):
     code = "import aioros1\nasync def main(node): raise LookupError('mine')\naioros1.run(main, 'x')"
     process = await start(code, master.uri)
-    _, errors = await asyncio.wait_for(process.communicate(), 20)
+    _, errors = await asyncio.wait_for(process.communicate(), 40)
     assert process.returncode == 1
     assert errors.decode().rstrip().endswith("LookupError: mine")
 
@@ -112,7 +112,7 @@ async def test_what_it_logs_is_in_the_file_that_roslaunch_names(master, tmp_path
     path = tmp_path / "talker-1.log"
     path.write_text("from the last time\n")
     process = await start(LOGGING, master.uri, f"__log:={path}")
-    output, errors = await asyncio.wait_for(process.communicate(), 20)
+    output, errors = await asyncio.wait_for(process.communicate(), 40)
     # On the terminal it is as without a file.
     assert (output, errors.decode(), process.returncode) == (b"", "all wäll\ntoo late\n", 0)
     first, hello, well = path.read_text(encoding="utf-8").splitlines()
@@ -127,7 +127,7 @@ async def test_what_it_logs_is_in_the_file_that_roslaunch_names(master, tmp_path
 async def test_a_file_that_cannot_be_written_is_no_reason_to_end(master, tmp_path):
     path = tmp_path / "no" / "such.log"
     process = await start(LOGGING, master.uri, f"__log:={path}")
-    _, errors = await asyncio.wait_for(process.communicate(), 20)
+    _, errors = await asyncio.wait_for(process.communicate(), 40)
     first, *_ = errors.decode().splitlines()
     assert first.startswith(f"__log:={path}: no log is written there: ")
     assert process.returncode == 0

@@ -38,7 +38,6 @@ async def test_what_is_promised_is_kept(name: str) -> None:
     assert seen.text
 
 
-@pytest.mark.timeout(120)
 async def test_nodes_that_come_and_go_find_each_other_again() -> None:
     scenario = SCENARIOS["churn"]
     assert not (await scenario.run(scenario.quick)).problems

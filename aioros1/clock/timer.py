@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from aioros1._public import public
 from aioros1.clock.clock import Clock, to_nanoseconds
 from aioros1.clock.rate import Rate
+from aioros1.net.loop_state import loop_state
 from aioros1.time import Duration, Time
 
 __all__ = ["Timer"]
@@ -47,9 +48,11 @@ class Timer:
         self._oneshot = oneshot
         self._on_error = on_error
         self._task = spawn(self._run, name="timer")
+        self._loop_state = loop_state()
 
     def cancel(self) -> None:
         """Call the function no more; a call that runs is cancelled."""
+        self._loop_state.check_thread("Timer.cancel()")
         self._task.cancel()
 
     async def _run(self) -> None:

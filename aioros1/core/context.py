@@ -7,9 +7,9 @@ place what a part needs and who may touch it.
 
 from __future__ import annotations
 
-import asyncio
-from collections.abc import Awaitable, Callable
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from asyncio import _get_running_loop
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from aioros1 import names
 from aioros1.core.connections import Connections
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from aioros1.core.user_errors import UserErrors
     from aioros1.idl import MessageStore
     from aioros1.log.node_log import NodeLog
+    from aioros1.net.loop_state import LoopState
     from aioros1.options import Limits, NodeOptions, Timeouts
     from aioros1.xmlrpc.client import XmlRpcClient
     from aioros1.xmlrpc.master_proxy import MasterProxy
@@ -93,9 +94,16 @@ class Context:
         self.registrations = registrations
         self.connections = Connections(events.publish)
         self.members: dict[Member, Callable[[], None]] = {}
-        """All that is open, in the order in which it was opened, and what drops it at once."""
+        """All that is open, in the order in which it was opened, and what drops it at once.
+        A member takes itself out when it is closed."""
         self.emit: Callable[[Event], None] = events.publish
         """Tell those who follow the events of the node."""
+        self.spawn = supervisor.spawn
+        """Run a function in a task that ends with the node; see :meth:`.Supervisor.spawn`."""
+        self.pause = supervisor.pause
+        """Sleep until the node begins to close; see :meth:`.Supervisor.pause`."""
+        self.loop_state: LoopState
+        """What the library keeps for the event loop that the node lives in, from its start."""
         self._remappings = remappings
         self._supervisor = supervisor
         self._user_errors = user_errors
@@ -129,11 +137,13 @@ class Context:
             reason = supervisor.reason
             why = f" ({reason})" if reason is not None else ""
             raise ClosedError(f"node {self.name} is {supervisor.state}, not open{why}")
-        supervisor.check_loop()
+        if _get_running_loop() is not self.loop_state.loop:
+            self.check_loop()
 
     def check_loop(self) -> None:
         """Raise :class:`RuntimeError` in another thread or event loop than the node's."""
-        self._supervisor.check_loop()
+        if self._supervisor.state != "new":
+            self.loop_state.check_thread(f"node {self.name}")
 
     async def admit(self, member: M, abort: Callable[[], None]) -> M:
         """Hand out what was opened, unless the node was closed meanwhile.
@@ -146,25 +156,6 @@ class Context:
             await member.close()
             self.check_open()
         return member
-
-    def dismiss(self, member: Member) -> None:
-        """It is closed."""
-        self.members.pop(member, None)
-
-    # tasks
-
-    def spawn(
-        self, function: Callable[..., Awaitable[Any]], *args: Any, name: str
-    ) -> asyncio.Task[None]:
-        """Run ``function(*args)`` in a task that ends with the node. What it raises is logged.
-
-        Raises :class:`~aioros1.ClosedError` once the end has come.
-        """
-        return self._supervisor.spawn(function, *args, name=name)
-
-    async def pause(self, seconds: float) -> None:
-        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the node begins to close."""
-        await self._supervisor.pause(seconds)
 
     # errors
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import builtins
 from abc import ABC, abstractmethod
+from asyncio import _get_running_loop
 from types import TracebackType
 from typing import Any, Self
 
@@ -33,6 +34,7 @@ class Role(ABC):
         self._context = context
         self._name = name
         self._is_open = True
+        self._loop = asyncio.get_running_loop()
         self._closing: asyncio.Task[None] | None = None
         self.stats = RoleStats()
         """What it has counted."""
@@ -79,6 +81,8 @@ class Role(ABC):
         is gone, is logged and not raised. When the wait is cancelled, closing goes on.
         """
         if self._is_open:
+            if _get_running_loop() is not self._loop:
+                self._context.check_loop()
             self._is_open = False
             self._closing = self._context.spawn(
                 self._finish, name=f"close {self.kind} {self._name}"
@@ -90,7 +94,7 @@ class Role(ABC):
         try:
             await self._close()
         finally:
-            self._context.dismiss(self)
+            self._context.members.pop(self, None)
 
     @abstractmethod
     async def _close(self) -> None: ...
@@ -102,7 +106,8 @@ class Role(ABC):
     def _check_open(self) -> None:
         if not self._is_open:
             raise self._closed_error()
-        self._context.check_loop()
+        if _get_running_loop() is not self._loop:
+            self._context.check_loop()
 
     def _closed_error(self) -> ClosedError:
         reason = self._context.close_reason

@@ -8,7 +8,6 @@ from collections.abc import Awaitable, Callable
 from typing import Any, Literal, Protocol
 
 from aioros1.errors import ClosedError
-from aioros1.net.loop_state import LoopState, loop_state
 
 __all__ = ["Life", "State", "Supervisor"]
 
@@ -47,7 +46,6 @@ class Supervisor:
         self._report = report
         self.state: State = "new"
         """Where the node is in its life; the steps of that set it."""
-        self._loop_state: LoopState | None = None  # of the loop that the node lives in
         self._group: asyncio.TaskGroup | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
@@ -56,8 +54,7 @@ class Supervisor:
 
     async def start(self) -> None:
         """Return when the node has begun; raise what it raises."""
-        self._loop_state = loop_state()
-        begun = self._loop_state.loop.create_future()
+        begun = asyncio.get_running_loop().create_future()
         self._task = asyncio.create_task(self._run(begun), name=f"{self._name} supervisor")
         try:
             await asyncio.shield(begun)
@@ -101,11 +98,6 @@ class Supervisor:
         if self._group is None:
             raise ClosedError(f"{self._name} is closed")
         return self._group.create_task(self._guarded(function, args, name), name=name)
-
-    def check_loop(self) -> None:
-        """Raise :class:`RuntimeError` in another thread or event loop than the node's."""
-        if self._loop_state is not None:
-            self._loop_state.check_thread(self._name)
 
     async def _guarded(
         self, function: Callable[..., Awaitable[Any]], args: tuple[Any, ...], name: str

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 __all__ = ["BUILTINS", "CONSTANT_TYPES", "HEADER_TYPE", "Builtin", "is_builtin"]
 
 
-@dataclass(frozen=True, slots=True)
-class Builtin:
+class Builtin(NamedTuple):
     """One built-in type.
 
     ``kind`` is ``int``, ``float``, ``bool``, ``string``, ``time`` or ``duration``.

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 from aioros1.errors import SerializationError
 from aioros1.idl.check import normalise
-from aioros1.idl.made_later import made_later
 from aioros1.idl.structure import Structure
+from aioros1.idl.values import made_later
 
 if TYPE_CHECKING:
     from aioros1.idl.codegen_decode import Mode

@@ -9,8 +9,8 @@ from aioros1.idl.codegen import Source
 from aioros1.idl.codegen_decode import Mode, write_decoder
 from aioros1.idl.codegen_learned import write_learned
 from aioros1.idl.explain import explainer
-from aioros1.idl.made_later import made_later
 from aioros1.idl.structure import Structure
+from aioros1.idl.values import made_later
 
 __all__ = ["make_decoder", "make_whole_decoder"]
 

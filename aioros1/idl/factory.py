@@ -56,18 +56,16 @@ def make_message_class(
     """
     for field in spec.fields:
         if field.array_len is not None and field.array_len >= _MAX_SIZE:
-            raise MessageSpecError(f"{field.name}: an array of 2 GiB or more", path=spec.type)
+            raise MessageSpecError(f"{field.name}: an array of over 2 GiB", path=spec.type)
     leaves = _leaves(spec, nested)
     loops = _loops(spec, nested)
     min_size, fixed = _size(spec, nested)
     if leaves > _MAX_LEAVES:
-        raise MessageSpecError(
-            f"more than {_MAX_LEAVES} fields, nested ones included", path=spec.type
-        )
+        raise MessageSpecError(f"more than {_MAX_LEAVES} fields, with nested ones", path=spec.type)
     if loops > _MAX_LOOPS:
         raise MessageSpecError(f"arrays nested more than {_MAX_LOOPS} deep", path=spec.type)
     if min_size >= _MAX_SIZE:
-        raise MessageSpecError("a message of 2 GiB or more", path=spec.type)
+        raise MessageSpecError("a message of over 2 GiB", path=spec.type)
 
     slots = tuple(field.name for field in spec.fields)
     namespace: dict[str, Any] = {

@@ -17,7 +17,6 @@ replaced in one step; two threads that learn at the same time at worst learn onc
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Literal, NamedTuple, TypeAlias
 
@@ -76,17 +75,19 @@ class Loop(NamedTuple):
 Plan: TypeAlias = list[Stretch | Loop]
 
 
-@dataclass(slots=True)
 class _Survey:
     """Walks through the bytes of a message to find its layout.
 
     The message has just been decoded, so nothing needs to be checked.
     """
 
-    data: bytes
-    pos: int
-    parts: int = 0
-    octets: int = 0  # bytes of lists of strings
+    __slots__ = ("data", "octets", "parts", "pos")
+
+    def __init__(self, data: bytes, pos: int) -> None:
+        self.data = data
+        self.pos = pos
+        self.parts = 0  # elements of arrays of messages
+        self.octets = 0  # bytes of lists of strings
 
     def layout(self, plan: Plan) -> Layout:
         """The values that the decoder unpacks, of one part after the other."""

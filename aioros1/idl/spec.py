@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from aioros1._public import public
 from aioros1.idl.builtin_types import HEADER_TYPE, is_builtin
@@ -14,8 +13,7 @@ ConstantValue: TypeAlias = int | float | bool | str
 
 
 @public("aioros1.idl")
-@dataclass(frozen=True, slots=True)
-class Field:
+class Field(NamedTuple):
     """One field of a message."""
 
     name: str
@@ -36,8 +34,7 @@ class Field:
 
 
 @public("aioros1.idl")
-@dataclass(frozen=True, slots=True)
-class Constant:
+class Constant(NamedTuple):
     """One constant of a message."""
 
     name: str
@@ -51,8 +48,7 @@ class Constant:
 
 
 @public("aioros1.idl")
-@dataclass(frozen=True, slots=True)
-class MessageSpec:
+class MessageSpec(NamedTuple):
     """The definition of a message."""
 
     type: str
@@ -82,8 +78,7 @@ class MessageSpec:
 
 
 @public("aioros1.idl")
-@dataclass(frozen=True, slots=True)
-class ServiceSpec:
+class ServiceSpec(NamedTuple):
     """The definition of a service, which has two messages."""
 
     type: str
@@ -97,8 +92,7 @@ class ServiceSpec:
 
 
 @public("aioros1.idl")
-@dataclass(frozen=True, slots=True)
-class ActionSpec:
+class ActionSpec(NamedTuple):
     """The definition of an action, of which actionlib makes seven messages."""
 
     type: str

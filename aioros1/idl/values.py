@@ -30,6 +30,7 @@ __all__ = [
     "as_time",
     "collect",
     "load_array",
+    "made_later",
     "number_array",
     "own_memory",
     "pack_durations",
@@ -355,3 +356,20 @@ def collect(parts: Sequence[Any]) -> list[bytes | memoryview]:
     if small:
         result.append(b"".join(small))
     return result
+
+
+def made_later(make: Callable[[], Callable[..., Any]]) -> Callable[..., Any]:
+    """A function that stands for what ``make`` returns, and calls ``make`` when called.
+
+    Two threads that call it for the first time may both have it made; either is whole.
+    """
+    made: Callable[..., Any] | None = None
+
+    def call(*arguments: Any) -> Any:
+        nonlocal made
+        function = made
+        if function is None:
+            made = function = make()
+        return function(*arguments)
+
+    return call

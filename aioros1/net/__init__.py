@@ -1,1 +1,1 @@
-"""Sockets: TCPROS over asyncio streams, XML-RPC over aiohttp."""
+"""Connections: how they are made and accepted, and the protocols that run on them."""

@@ -1,4 +1,4 @@
-"""Who is let in: decided when a connection is accepted, before a byte is read."""
+"""Decides whether an incoming connection may stay, before a byte of it is read."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from aioros1.net.rate_limit import Seldom
 __all__ = ["THIS_HOST", "Admission"]
 
 THIS_HOST = ""
-"""Stands for the host of a peer that came over a Unix socket, or without any: it is on
-this machine, always allowed, and has no share of its own."""
+"""The host of a peer that connected over a Unix socket or within the process. It is on this
+machine, always allowed, and does not count against ``connections_per_host``."""
 
 _INTERNET = (socket.AF_INET, socket.AF_INET6)
 
 
 class Admission:
-    """The door of one port: an allow-list, and how many connections there may be.
+    """Guards one port: checks peers against an allow-list and limits their connections.
 
-    ``what`` names the port in what is logged; ``total`` is a field of ``Limits`` and its
-    value. Who is turned away is logged once a minute for each address, and in a minute for
-    no more than 256 of them.
+    ``what`` names the port in the log; ``total`` is a field of ``Limits`` and its value.
+    A refusal is logged once a minute for each address, and for at most 256 addresses a
+    minute.
     """
 
     def __init__(
@@ -44,22 +44,25 @@ class Admission:
         self._seldom = Seldom()
         self._hosts: dict[str, int] = {}
         self.open = 0
-        """Connections let in that have not left."""
+        """Connections that are open now."""
         self.refused = 0
-        """Connections turned away because there were too many."""
+        """Connections refused so far because there were too many."""
         self.forbidden = 0
-        """Connections turned away because their address is not allowed."""
+        """Connections refused so far because their address is not allowed."""
 
     def enter(self, transport: asyncio.BaseTransport) -> str | None:
-        """The host a new connection comes from, to be given to :meth:`leave` at its end;
-        ``None`` if it is to be closed at once."""
+        """Decide about a new connection.
+
+        Returns the host it comes from, which :meth:`leave` needs when it ends, or ``None``
+        if you must close it at once.
+        """
         host = THIS_HOST
         sock = transport.get_extra_info("socket")
         if sock is not None and sock.family in _INTERNET:
             try:
                 address = parse_address(transport.get_extra_info("peername")[0])
             except (OSError, TypeError, ValueError):
-                return None  # it has gone again, and nobody can say who it was
+                return None  # the peer has gone already, and its address is unknown
             host = str(address)
             if address not in self._allow:
                 self.forbidden += 1
@@ -82,7 +85,7 @@ class Admission:
         return host
 
     def leave(self, host: str) -> None:
-        """A connection that :meth:`enter` has let in is closed."""
+        """Note that a connection which :meth:`enter` admitted has ended."""
         self.open -= 1
         if host:
             count = self._hosts.pop(host) - 1

@@ -1,4 +1,4 @@
-"""Which addresses may connect, without any I/O."""
+"""Lists of the addresses that may connect. No I/O."""
 
 from __future__ import annotations
 
@@ -22,11 +22,10 @@ _MAPPED = IPv6Network("::ffff:0:0/96")
 
 
 def parse_address(text: str) -> Address:
-    """A numeric address, as the kernel gives that of a peer.
+    """Parse the numeric address of a peer, as the kernel reports it.
 
-    A socket for both kinds of IP gives IPv4 addresses inside IPv6 ones; here they are what
-    they are. Which interface a link-local address belongs to is left out. Raises
-    :class:`ValueError`.
+    A dual-stack socket reports IPv4 addresses mapped into IPv6; they are returned as IPv4.
+    The interface of a link-local address is dropped. Raises :class:`ValueError`.
     """
     address = ip_address(text.partition("%")[0])
     return getattr(address, "ipv4_mapped", None) or address
@@ -35,10 +34,10 @@ def parse_address(text: str) -> Address:
 class AllowList:
     """The networks whose addresses may connect; ``None`` is every network.
 
-    An empty list is nobody, so that a list that was filtered too well opens no door. Host
-    names are not taken: what they mean is decided elsewhere, and changes. Raises
-    :class:`ValueError` for what is no network, and for one with host bits
-    (``"10.0.0.5/8"``), since either a host or its whole network may have been meant.
+    An empty list admits nobody, so that a list which was filtered down to nothing does not
+    admit everyone. Host names are not accepted, because what they resolve to can change.
+    Raises :class:`ValueError` for anything that is not a network, and for a network with
+    host bits (``"10.0.0.5/8"``), which may mean the host or the network.
     """
 
     def __init__(self, networks: Iterable[str] | None) -> None:
@@ -48,7 +47,7 @@ class AllowList:
 
     @property
     def networks(self) -> tuple[str, ...] | None:
-        """What is allowed, in the usual notation; ``None`` for everybody."""
+        """The allowed networks in CIDR notation; ``None`` if every address is allowed."""
         return None if self._networks is None else tuple(map(str, self._networks))
 
     def __contains__(self, address: Address) -> bool:
@@ -62,7 +61,7 @@ def _parse_network(text: object) -> Network:
         raise ValueError(f"allow: expected {_EXPECTED}, got {text!r}")
     host, slash, bits = text.partition("/")
     try:
-        # Netmasks are not taken, as they can be written in two ways.
+        # Not netmasks (10.0.0.0/255.0.0.0), which can be read in two ways.
         if "%" in text or (slash and not (bits.isascii() and bits.isdecimal())):
             raise ValueError
         network = ip_network(text, strict=False)

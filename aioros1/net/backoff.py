@@ -8,8 +8,8 @@ __all__ = ["Backoff"]
 
 
 class Backoff:
-    """Delays that double, with jitter, so that peers that lost each other in the same
-    moment do not come back in the same moment."""
+    """Delays that double, with jitter: nodes that lost the same peer at the same moment do
+    not all come back at the same moment."""
 
     __slots__ = ("_first", "_next", "longest")
 
@@ -19,11 +19,11 @@ class Backoff:
         self._next = first
 
     def reset(self) -> None:
-        """Start over: the last try went well."""
+        """Start over with the shortest delay, after a success."""
         self._next = self._first
 
     def delay(self) -> float:
-        """Seconds to wait now: between half of the current delay and all of it."""
+        """Seconds to wait before the next try: a random part, from half to all, of the delay."""
         current = self._next
         self._next = min(self.longest, 2 * current)
         return current * random.uniform(0.5, 1.0)

@@ -11,8 +11,9 @@ process and back.
 from __future__ import annotations
 
 import asyncio
+from asyncio import _get_running_loop
 from collections.abc import Callable
-from threading import get_ident
+from threading import RLock
 from time import perf_counter
 
 __all__ = ["Coalescer"]
@@ -28,17 +29,18 @@ MAX_ALONE = 16
 class Coalescer:
     """Decides for all publishers of one event loop; part of :class:`.LoopState`.
 
-    ``collecting_in`` and ``should_yield`` are plain attributes, because they are looked at
-    for each message. ``check_thread(what)`` raises if it is called outside the loop's thread.
+    ``check_thread(what)`` raises if it is called outside the loop's thread.
     """
 
     __slots__ = (
         "_alone",
         "_check_thread",
         "_functions",
+        "_lock",
         "_loop",
         "_sent_at",
-        "collecting_in",
+        "collects_here",
+        "is_collecting",
         "should_yield",
     )
 
@@ -47,13 +49,16 @@ class Coalescer:
     ) -> None:
         self._loop = loop
         self._check_thread = check_thread
-        self.collecting_in = 0
-        """While messages are collected until the end of the iteration: the loop's thread, as
-        :func:`threading.get_ident` names it. Otherwise 0.
+        self.is_collecting = False
+        """Whether messages are collected until the end of the iteration. A plain attribute,
+        as it is looked at for each message."""
+        self.collects_here: Callable[[], bool]
+        """Whether messages are collected, and this is the thread that does it.
 
-        So one comparison says both whether :meth:`begin` has to be called, and whether this
-        is the right thread.
+        One question, because it is asked for each message: a method of a lock answers it in
+        20 to 30 ns, while :func:`threading.get_ident` and a comparison take 40 to 60.
         """
+        self._new_lock()
         self.should_yield = False
         """Whether so much was sent in this iteration that other tasks should run."""
         self._alone = 0  # messages sent alone in this iteration
@@ -63,13 +68,12 @@ class Coalescer:
     def begin(self) -> None:
         """A message is about to be encoded: find out whether it belongs to a burst.
 
-        To be called unless :attr:`collecting_in` is this thread. Raises
-        :class:`RuntimeError` outside the loop's thread, and then has changed nothing.
+        To be called unless :attr:`collects_here`. Raises :class:`RuntimeError` outside the
+        loop's thread, and then has changed nothing.
         """
-        self._check_thread("publish()")
-        if self.collecting_in:
-            self.collecting_in = get_ident()  # another thread goes on running the loop
-        elif perf_counter() - self._sent_at < BURST_GAP:
+        if _get_running_loop() is not self._loop:
+            self._check_thread("publish()")
+        if not self.is_collecting and perf_counter() - self._sent_at < BURST_GAP:
             self.collect()
 
     def sent_alone(self) -> None:
@@ -89,9 +93,10 @@ class Coalescer:
 
         Raises :class:`RuntimeError` when the loop is closed.
         """
-        if not self.collecting_in:
+        if not self.is_collecting:
             self._loop.call_soon(self._end)  # first: if this fails, nothing is collected
-            self.collecting_in = get_ident()
+            self._lock.acquire()
+            self.is_collecting = True
 
     def call_at_end(self, function: Callable[[], object]) -> None:
         """Call ``function`` at the end of the iteration; only while messages are collected.
@@ -103,8 +108,11 @@ class Coalescer:
 
     def _end(self) -> None:
         self._alone = 0
-        self.collecting_in = 0
-        self.should_yield = False
+        self.should_yield = self.is_collecting = False
+        if self.collects_here():
+            self._lock.release()
+        else:  # the loop was stopped in between, and runs in another thread now
+            self._new_lock()
         functions, self._functions = self._functions, []
         rest = iter(functions)
         try:
@@ -114,3 +122,9 @@ class Coalescer:
             for function in rest:
                 self._loop.call_soon(function)
             raise  # to the loop, which reports it
+
+    def _new_lock(self) -> None:
+        # It protects nothing, and only remembers which thread collects. The method is the one
+        # that threading.Condition asks; typeshed does not know it.
+        self._lock = RLock()
+        self.collects_here = self._lock._is_owned  # type: ignore[attr-defined]

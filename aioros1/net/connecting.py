@@ -1,4 +1,4 @@
-"""TCP connections to whichever address of a host answers first."""
+"""Connects to whichever address of a host answers first."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import socket
 from collections.abc import Callable
 from typing import TypeVar
 
-from aioros1.net.hosts import is_loopback, resolve
+from aioros1.net.hosts import all_loopback, resolve
 
 __all__ = ["connect"]
 
@@ -16,20 +16,21 @@ P = TypeVar("P", bound=asyncio.BaseProtocol)
 _Address = tuple[socket.AddressFamily, str]
 
 STAGGER = 0.25
-"""Seconds one address has before the next is tried beside it, as RFC 8305 proposes."""
+"""Seconds before the next address is tried in parallel, as RFC 8305 recommends."""
 
 
 async def connect(factory: Callable[[], P], host: str, port: int) -> tuple[asyncio.Transport, P]:
-    """A new connection to ``host``, and the protocol that ``factory`` made for it.
+    """Connect to ``host`` and return the transport and the protocol that ``factory`` made.
 
-    When an address refuses, the next is tried at once, and when it is silent, soon: a
-    host may have an IPv6 address that leads nowhere. Raises :class:`OSError`.
+    If an address refuses, the next is tried at once; if it does not answer, after a quarter
+    of a second and in parallel. (A host may have an IPv6 address that leads nowhere.)
+    Raises :class:`OSError`.
     """
     addresses = await resolve(host, port)
-    if len(addresses) > 1 and not all(is_loopback(address) for _, address in addresses):
+    if len(addresses) > 1 and not all_loopback(addresses):
         return await _race(factory, host, addresses, port)
     failures: list[OSError] = []
-    for address in addresses:  # this machine is never silent
+    for address in addresses:  # this machine answers at once
         try:
             return await _attempt(factory, address, port)
         except OSError as error:
@@ -41,8 +42,8 @@ async def _attempt(
     factory: Callable[[], P], address: _Address, port: int
 ) -> tuple[asyncio.Transport, P]:
     family, host = address
-    # By number and family, which no loop has to look up. Given a socket that is yet to be
-    # connected, uvloop would, and starts four threads for it.
+    # A numeric address with its family needs no look-up. uvloop would look up the address of
+    # a socket that is passed to it unconnected, and would start four threads for that.
     loop = asyncio.get_running_loop()
     return await loop.create_connection(factory, host, port, family=family)
 
@@ -72,7 +73,7 @@ async def _race(
                     failures.append(error)
     finally:
         for task in running:
-            # Each by itself: the waiting below may be cancelled.
+            # As a callback, because the wait below may be cancelled.
             task.add_done_callback(_abort)
             task.cancel()
         if running:
@@ -81,12 +82,14 @@ async def _race(
 
 
 def _abort(task: asyncio.Task[tuple[asyncio.Transport, P]]) -> None:
-    """Nobody wants the connection any more."""
+    """Close a connection that another one has beaten."""
     if not task.cancelled() and task.exception() is None:
         task.result()[0].abort()
 
 
 def _failure(host: str, failures: list[OSError]) -> OSError:
-    if len(failures) == 1:
-        return failures[0]
-    return OSError(", ".join(map(str, failures)) or f"{host} has no address")
+    if not failures:
+        return OSError(f"{host} has no address")
+    if len({error.errno for error in failures}) == 1:
+        return failures[0]  # the same for each address
+    return OSError(", ".join(map(str, failures)))

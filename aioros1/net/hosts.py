@@ -1,7 +1,7 @@
-"""Host names and addresses: which one to call, which one to listen on, which one to tell.
+"""Host names and addresses: which to connect to, which to listen on, which to advertise.
 
-asyncio looks names up in a thread. Most ROS graphs live on one machine and name it
-``localhost`` or by a number, and for these no thread is ever started.
+asyncio resolves names in a thread. Most ROS graphs run on one machine and call it
+``localhost`` or use a numeric address; for these no thread is started.
 """
 
 from __future__ import annotations
@@ -11,10 +11,11 @@ import contextlib
 import ipaddress
 import os
 import socket
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 __all__ = [
     "advertised_host",
+    "all_loopback",
     "bind_address_for",
     "bind_sockets",
     "every_interface",
@@ -24,6 +25,7 @@ __all__ = [
     "local_address",
     "local_address_facing",
     "resolve",
+    "set_keepalive",
     "uri_host",
 ]
 
@@ -31,10 +33,10 @@ _LOCALHOST = [(socket.AF_INET, "127.0.0.1"), (socket.AF_INET6, "::1")]
 
 
 async def resolve(host: str, port: int = 0) -> list[tuple[socket.AddressFamily, str]]:
-    """The numeric addresses of ``host``, the most promising first.
+    """Return the numeric addresses of ``host``, the most promising first.
 
-    ``localhost`` is 127.0.0.1, then ::1. Raises :class:`OSError` (``socket.gaierror``)
-    for a name nobody knows.
+    ``localhost`` is 127.0.0.1, then ::1. Raises :class:`OSError` (``socket.gaierror``) if
+    the name is unknown.
     """
     literal = _literal(host)
     if literal is not None:
@@ -54,23 +56,24 @@ async def resolve(host: str, port: int = 0) -> list[tuple[socket.AddressFamily, 
 
 
 def local_address_facing(remote: str) -> str:
-    """The numeric address of this machine that packets to ``remote`` leave from.
+    """Return the numeric address of this machine from which packets to ``remote`` are sent.
 
-    ``remote`` is a numeric address; nothing is sent, the kernel only chooses a route.
-    A loopback address faces itself. Raises :class:`OSError` when there is no route.
+    ``remote`` is a numeric address. Nothing is sent: the kernel only chooses a route. For
+    a loopback address that is the address itself. Raises :class:`OSError` if there is no
+    route.
     """
     literal = _literal(remote)
     if literal is None:
         raise ValueError(f"expected a numeric address, got {remote!r}")
     family, address = literal
-    with socket.socket(family, socket.SOCK_DGRAM) as probe:
-        probe.setblocking(False)  # nor does it ever wait
-        probe.connect((address, 9))  # the discard port; any would do
-        return str(probe.getsockname()[0])
+    with socket.socket(family, socket.SOCK_DGRAM) as sock:
+        sock.setblocking(False)  # connecting a datagram socket never waits anyway
+        sock.connect((address, 9))  # the discard port; any port would do
+        return str(sock.getsockname()[0])
 
 
 def local_address() -> str | None:
-    """The numeric address of this machine on its default route, ``None`` without one."""
+    """Return this machine's numeric address on its default route, ``None`` without one."""
     for remote in ("192.0.2.1", "2001:db8::1"):  # reserved for documentation: never local
         with contextlib.suppress(OSError):
             address = local_address_facing(remote)
@@ -82,12 +85,12 @@ def local_address() -> str | None:
 def advertised_host(
     environ: Mapping[str, str] | None = None, *, bound: str | None = None
 ) -> str | None:
-    """The host a server should tell others; None where there is nothing to tell.
+    """Return the host that a server should advertise, or ``None`` if there is none.
 
-    ``ROS_HOSTNAME``, then ``ROS_IP``, as for every program of ROS 1; else ``bound``, the one
-    address that it listens on; else the address on the default route. rosmaster tells the
-    machine's host name instead, which other machines often cannot look up, and looking it up
-    takes a thread.
+    It is ``ROS_HOSTNAME``, then ``ROS_IP``, as for every ROS 1 program; else ``bound``, the
+    one address that the server listens on; else the address on the default route. (rosmaster
+    advertises the machine's host name, which other machines often cannot resolve, and which
+    takes a thread to look up.)
     """
     environ = os.environ if environ is None else environ
     for variable in ("ROS_HOSTNAME", "ROS_IP"):
@@ -97,16 +100,16 @@ def advertised_host(
 
 
 def bind_address_for(host: str) -> str:
-    """Where to listen when ``host`` is told to others: loopback stays loopback, anything
-    else means all interfaces, as for every program of ROS 1."""
+    """Return the address to listen on when ``host`` is advertised: a loopback address for
+    loopback, otherwise all interfaces, as for every ROS 1 program."""
     if is_loopback(host):
         return host.strip("[]") if _literal(host) else "127.0.0.1"
     return every_interface(host)
 
 
 def every_interface(host: str) -> str:
-    """Where to listen to be reached as ``host``, by whatever interface: on IPv6 as well if
-    it is an address of that kind, or a name and ``ROS_IPV6`` is ``on``."""
+    """Return the wildcard address to listen on to be reached as ``host``: that of IPv6 if
+    ``host`` is an IPv6 address, or if it is a name and ``ROS_IPV6`` is ``on``."""
     is_name = _literal(host) is None
     is_ipv6 = ":" in host or (is_name and os.environ.get("ROS_IPV6") == "on")
     return "::" if is_ipv6 else "0.0.0.0"
@@ -122,22 +125,27 @@ def is_loopback(host: str) -> bool:
         return False
 
 
+def all_loopback(addresses: Iterable[tuple[socket.AddressFamily, str]]) -> bool:
+    """Whether each of these is a loopback address: what :func:`resolve` gives for this machine."""
+    return all(map(is_loopback, (address for _, address in addresses)))
+
+
 def is_local(host: str) -> bool:
-    """Whether ``host`` is a numeric address of this machine now."""
+    """Whether ``host`` is currently a numeric address of this machine."""
     literal = _literal(host)
     if literal is None:
         return False
     family, address = literal
-    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+    with socket.socket(family, socket.SOCK_DGRAM) as sock:
         try:
-            probe.bind((address, 0))
+            sock.bind((address, 0))
         except OSError:
             return False
         return True
 
 
 def is_wildcard(host: str) -> bool:
-    """Whether ``host`` stands for all addresses: where to listen, nothing to tell others."""
+    """Whether ``host`` stands for all addresses, and so cannot be advertised."""
     try:
         return ipaddress.ip_address(host.strip("[]")).is_unspecified
     except ValueError:
@@ -145,16 +153,16 @@ def is_wildcard(host: str) -> bool:
 
 
 def uri_host(host: str) -> str:
-    """``host`` as it is written in a URI: numeric IPv6 in brackets."""
+    """Return ``host`` as a URI needs it: a numeric IPv6 address in brackets."""
     return f"[{host}]" if ":" in host and not host.startswith("[") else host
 
 
 def bind_sockets(host: str = "0.0.0.0", port: int = 0) -> list[socket.socket]:
-    """Listening sockets on the numeric address ``host`` (or ``localhost``).
+    """Open listening sockets on the numeric address ``host`` (or ``localhost``).
 
-    ``"0.0.0.0"`` is every IPv4 interface, ``"::"`` every interface of both kinds in one
+    ``"0.0.0.0"`` is every IPv4 interface, ``"::"`` every interface of IPv4 and IPv6 in one
     socket. Port 0 takes a free one. Raises :class:`OSError`, whose text names the address,
-    and :class:`ValueError` for what is no address or no port.
+    and :class:`ValueError` if ``host`` is not an address or ``port`` not a port.
     """
     if host.rstrip(".").lower() == "localhost":
         host = "127.0.0.1"
@@ -166,7 +174,7 @@ def bind_sockets(host: str = "0.0.0.0", port: int = 0) -> list[socket.socket]:
     family, address = literal
     sock = socket.socket(family, socket.SOCK_STREAM)
     try:
-        # A master that is started again must not wait for the old connections to time out.
+        # A restarted master must not have to wait until its old connections time out.
         if os.name == "posix":
             sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         if family == socket.AF_INET6:
@@ -186,12 +194,17 @@ def bind_sockets(host: str = "0.0.0.0", port: int = 0) -> list[socket.socket]:
     return [sock]
 
 
-def probe(sock: socket.socket, keepalive: tuple[int, int, int]) -> None:
-    """Have the system ask whether the other side of a TCP connection is still there: after so
-    many seconds idle, in intervals of so many seconds, so often."""
+def set_keepalive(sock: socket.socket, idle: int, interval: int, count: int) -> None:
+    """Let the system find out when the other side of a TCP connection is gone.
+
+    After ``idle`` seconds of silence it asks ``count`` times, every ``interval`` seconds.
+    """
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
-    names = ("TCP_KEEPIDLE", "TCP_KEEPINTVL", "TCP_KEEPCNT")
-    for name, value in zip(names, keepalive, strict=True):
+    for name, value in (
+        ("TCP_KEEPIDLE", idle),
+        ("TCP_KEEPINTVL", interval),
+        ("TCP_KEEPCNT", count),
+    ):
         option = getattr(socket, name, None)  # not every system has all three
         if option is not None:
             sock.setsockopt(socket.IPPROTO_TCP, option, value)

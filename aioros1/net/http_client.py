@@ -1,40 +1,46 @@
-"""HTTP requests on kept connections: as much of a client as XML-RPC needs.
+"""An HTTP client with keep-alive connections: as much of one as XML-RPC needs.
 
-Written for the small calls between nodes and their master, which the session of aiohttp
-makes twice as expensive; docs/design/xmlrpc.md has the figures.
+aiohttp's session would make the small calls between nodes and their master twice as
+expensive; docs/design/xmlrpc.md has the figures.
 """
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
 from aioros1.net.connecting import connect
-from aioros1.net.hosts import probe, uri_host
+from aioros1.net.hosts import set_keepalive, uri_host
+from aioros1.waiting import Waiters
 from aioros1.wire.http import AnswerReader, HttpError
 
 __all__ = ["HttpClient", "Server", "server_at"]
 
 PER_SERVER = 8
-"""Connections to one server. Enough for a node that registers many roles at once; few
-enough that a server with a thread per connection is not flooded."""
+"""The most connections to one server. Enough for a node that registers many roles at once,
+and few enough for a server that starts a thread for each."""
 
 IDLE = 15.0
-"""Seconds after which an idle connection is closed, or up to twice that."""
+"""Seconds after which an idle connection is closed; it may take up to twice as long."""
+
+CLOSING = 5.0
+"""Seconds in which event loops must have told the end of connections that were aborted."""
 
 # Seconds idle, seconds between probes, probes: half a minute in all.
 _KEEPALIVE = (15, 5, 3)
 
-# What is written in one piece. More is written as fast as the server takes it, so that it
-# is not all copied into the buffer of the transport.
+# Bytes written in one piece. A larger body is written as fast as the server takes it, so
+# that the transport does not have to buffer all of it.
 _PIECE = 256 << 10
 
 
 class Server(NamedTuple):
-    """Where requests go, and how each begins."""
+    """Where requests go, and how each of them begins."""
 
     host: str
     port: int
@@ -44,15 +50,15 @@ class Server(NamedTuple):
 
 @lru_cache(maxsize=1024)
 def server_at(uri: str) -> Server:
-    """What ``uri`` means. Raises :class:`ValueError` when it is not an HTTP URI."""
+    """Parse ``uri``. Raises :class:`ValueError` if it is not an HTTP URI."""
     parts = urlsplit(uri)
     host, port = parts.hostname, 80 if parts.port is None else parts.port
     if parts.scheme != "http" or not host or not port:
         raise ValueError(f"not an HTTP URI: {uri!r}")
     if not host.isascii():
         host = host.encode("idna").decode()
-    # As Python's own client does: no path means /RPC2. What is quoted is not ASCII, or
-    # would end the line that it is in.
+    # No path means /RPC2, as for Python's own client. Characters are quoted that are not
+    # ASCII, or that would end the request line.
     path = quote(parts.path or "/RPC2", safe="/%:@!$&'()*+,;=~")
     if parts.query:
         path += "?" + quote(parts.query, safe="/%:@!$&'()*+,;=~?")
@@ -70,14 +76,15 @@ class HttpClient:
         self._max_bytes = max_bytes
         self._pools: dict[tuple[str, int], _Pool] = {}
         self._open: set[_Connection] = set()
+        self._none_open = Waiters()  # woken when the last connection has ended
         self._sweeper: asyncio.TimerHandle | None = None
 
     async def post(self, server: Server, body: bytes) -> AnswerReader:
-        """The answer to ``body``. Raises
+        """Send ``body`` and return the answer. Raises
 
-        - :class:`ConnectionError` when there is no connection to be had,
-        - :class:`ConnectionResetError` when it is lost before the answer,
-        - :class:`.HttpError` when what is answered is not HTTP, or too much.
+        - :class:`ConnectionError` if the server cannot be reached,
+        - :class:`ConnectionResetError` if the connection is lost before the answer,
+        - :class:`.HttpError` if the answer is not HTTP, or too large.
         """
         pool = self._pools.get(server[:2])
         if pool is None:
@@ -102,9 +109,10 @@ class HttpClient:
             self._sweeper.cancel()
         for connection in self._open:
             connection.abort()
-        while self._open:  # event loops close things in a later turn
-            await asyncio.sleep(0)
-        await asyncio.sleep(0)
+        with contextlib.suppress(TimeoutError):  # nobody can use them any more, at least
+            await self._none_open.wait_until(
+                lambda: not self._open, timeout=CLOSING, what="connections did not close"
+            )
 
     async def _post(self, pool: _Pool, server: Server, body: bytes) -> AnswerReader:
         lost: ConnectionResetError | None = None
@@ -114,14 +122,14 @@ class HttpClient:
             try:
                 await connection.exchange(server.head, body, answer)
             except asyncio.CancelledError:
-                # Out of time, most likely. If the way to the server is gone, all that are
-                # kept are dead, and each would take its time.
+                # Most likely a timeout. If the network path is gone, all kept connections
+                # are dead, and each would cost a timeout of its own.
                 pool.close_idle()
                 raise
             except ConnectionResetError as error:
-                # Perhaps the server closed the kept connection while the request was on
-                # its way. Then, and only then, it is sent once more, on a connection that
-                # is certainly new: the others that are kept may be as stale.
+                # The server may have closed the kept connection while the request was on
+                # its way. Only then is it sent once more, on a new connection, because the
+                # other kept ones may be just as stale.
                 if answer.has_begun:
                     raise
                 lost = error
@@ -134,7 +142,7 @@ class HttpClient:
         except ConnectionError as error:
             if lost is None:
                 raise
-            # It may have been received the first time, whatever happened now.
+            # The server may have received the first one, whatever happened to the second.
             raise ConnectionResetError(str(error)) from lost
         pool.put(connection)
         return answer
@@ -142,19 +150,24 @@ class HttpClient:
     async def _connect(self, pool: _Pool, server: Server) -> _Connection:
         try:
             _, connection = await connect(
-                lambda: _Connection(self._open, pool), server.host, server.port
+                lambda: _Connection(self._ended, pool), server.host, server.port
             )
         except OSError as error:
             raise ConnectionError(f"cannot connect: {error}") from error
-        # Not when it is made: uvloop does not tell the end of one whose connecting was
-        # cancelled at that moment, and close() would wait for it.
+        # Not in connection_made(): uvloop never calls connection_lost() for a connection
+        # that was cancelled at that moment, and close() would wait for it.
         if not connection.is_closing:
             self._open.add(connection)
             connection.keep_alive()
         return connection
 
+    def _ended(self, connection: _Connection) -> None:
+        self._open.discard(connection)
+        if not self._open:
+            self._none_open.wake()
+
     def _sweep(self) -> None:
-        """Close what was idle for long, and forget servers that nobody asks any more."""
+        """Close connections that were idle for long, and forget servers without any."""
         loop = asyncio.get_running_loop()
         for address, pool in list(self._pools.items()):
             pool.close_idle(loop.time() - IDLE)
@@ -171,10 +184,10 @@ class _Pool:
     def __init__(self) -> None:
         self.idle: list[_Connection] = []
         self.slots = asyncio.Semaphore(PER_SERVER)
-        self.users = 0  # requests in progress, and those that wait for a slot
+        self.users = 0  # requests in progress or waiting for a slot
 
     def take(self) -> _Connection | None:
-        """The idle connection that was used last."""
+        """Take the idle connection that was used last."""
         while self.idle:
             connection = self.idle.pop()
             if connection.is_usable:
@@ -182,7 +195,7 @@ class _Pool:
         return None
 
     def put(self, connection: _Connection) -> None:
-        """Keep a connection, if the server does."""
+        """Keep a connection, if the server keeps it."""
         if connection.is_usable:
             connection.idle_since = asyncio.get_running_loop().time()
             self.idle.append(connection)
@@ -196,14 +209,14 @@ class _Pool:
 
 
 class _Connection(asyncio.Protocol):
-    """One request and answer after the other."""
+    """A connection: one request and its answer after the other."""
 
     __slots__ = (
         "_answer",
+        "_ended",
         "_failure",
         "_is_paused",
         "_keeps_alive",
-        "_open",
         "_pool",
         "_transport",
         "_waiter",
@@ -212,8 +225,8 @@ class _Connection(asyncio.Protocol):
 
     _transport: asyncio.Transport
 
-    def __init__(self, open_: set[_Connection], pool: _Pool) -> None:
-        self._open = open_
+    def __init__(self, ended: Callable[[_Connection], None], pool: _Pool) -> None:
+        self._ended = ended
         self._pool = pool
         self._answer: AnswerReader | None = None  # while it is not complete
         self._failure: Exception | None = None
@@ -233,15 +246,15 @@ class _Connection(asyncio.Protocol):
         return self._transport.is_closing()
 
     def keep_alive(self) -> None:
-        """Have the system ask now and then whether the server's machine is still there: a
-        request may wait for its answer without a limit of time."""
-        probe(self._transport.get_extra_info("socket"), _KEEPALIVE)
+        """Let the system find out if the server's machine is gone, because a request may wait
+        for its answer without a timeout."""
+        set_keepalive(self._transport.get_extra_info("socket"), *_KEEPALIVE)
 
     async def exchange(self, head: bytes, body: bytes, answer: AnswerReader) -> None:
         """Send a request, and wait until ``answer`` is complete.
 
-        Whatever this raises, the connection is closed then: half a request or half an
-        answer must never be before another.
+        If this raises, the connection is closed, so that half a request or half an answer
+        never precedes another.
         """
         self._answer = answer
         self._failure = None
@@ -263,7 +276,7 @@ class _Connection(asyncio.Protocol):
         self._transport.abort()
 
     async def _send(self, head: bytes, body: bytes) -> bool:
-        """Whether all was sent: a server may refuse a body before it has all of it."""
+        """Send a request; False if the server answered before it had all of the body."""
         if len(body) <= _PIECE:
             self._transport.write(head + body)
             return True
@@ -301,7 +314,7 @@ class _Connection(asyncio.Protocol):
         self._transport = cast("asyncio.Transport", transport)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._open.discard(self)
+        self._ended(self)
         if self in self._pool.idle:
             self._pool.idle.remove(self)
         self._is_paused = False
@@ -309,7 +322,7 @@ class _Connection(asyncio.Protocol):
 
     def data_received(self, data: bytes) -> None:
         if self._answer is None:
-            self.abort()  # nobody has asked; perhaps it says why it closes
+            self.abort()  # an answer without a request; perhaps it says why it closes
             return
         try:
             if self._answer.receive_data(data):

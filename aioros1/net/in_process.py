@@ -1,17 +1,17 @@
-"""Connections within one event loop: two transports that hand each other what is written.
+"""Connections within one event loop: two transports that pass each other what is written.
 
-What a protocol sees of a :class:`MemoryTransport` is what it sees of a socket's:
+To a protocol a :class:`MemoryTransport` behaves like that of a socket:
 
-* What is written arrives in order, in a later turn of the loop: no code of the other side
-  runs inside of :meth:`~MemoryTransport.write`. While the other side does not read, it
-  holds :data:`CAPACITY` bytes, as the system does for a socket; what is written beyond
-  stays in the write buffer, with ``pause_writing`` and ``resume_writing`` as usual.
-* Closing sends what waits, then the other side sees the end. Writing to a side that is
-  gone loses the connection, with an error. The end, too, is told in a later turn.
+* Data arrives in order, in a later iteration of the loop: no code of the other side runs
+  inside :meth:`~MemoryTransport.write`. While the other side does not read, the transport
+  holds :data:`CAPACITY` bytes for it, as the system does for a socket; more stays in the
+  write buffer, with ``pause_writing`` and ``resume_writing`` as usual.
+* Closing sends the remaining data, then the other side sees the end. Writing to a closed
+  side loses the connection, with an error. The end is reported in a later iteration, too.
 
-Nothing is copied that cannot change. A protocol that has a method ``block_received(data)``
-is given ``bytes`` as they were written, or a memoryview of them; others get copies in
-pieces of the usual size, in ``data_received`` or ``get_buffer`` and ``buffer_updated``.
+Immutable data is not copied. A protocol that has a method ``block_received(data)`` is given
+``bytes`` as they were written, or a memoryview of them. Other protocols get copies in pieces
+of the usual size, through ``data_received`` or ``get_buffer`` and ``buffer_updated``.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from typing import Any, cast
 __all__ = ["CAPACITY", "MemoryTransport", "connect_in_memory"]
 
 CAPACITY = 4 << 20
-"""Bytes that a side holds which does not read: what TCP on loopback holds, so that a burst
-that loses nothing there loses nothing here. One write more is taken whole; it is only a
-reference."""
+"""Bytes that are held for a side that does not read. TCP on loopback holds as many, so a
+burst that loses nothing there loses nothing here. The write that passes this limit is taken
+as a whole, since it is only a reference."""
 
 _PIECE = 256 * 1024
 """Bytes given to a protocol at a time, as asyncio reads them from a socket."""
@@ -148,7 +148,7 @@ class MemoryTransport(asyncio.Transport):
             self._call("pause_writing")
 
     def _taken(self) -> None:
-        """The other side has taken something out of the outbox."""
+        """The other side has taken data out of the outbox."""
         if self._writing_paused and self._outbox_size <= self._low:
             self._writing_paused = False
             self._call("resume_writing")
@@ -161,7 +161,7 @@ class MemoryTransport(asyncio.Transport):
     # reading, the rest
 
     def _take(self, data: _Data) -> bool:
-        """Keep ``data`` for the protocol; whether there was room."""
+        """Hold ``data`` for the protocol; False if there is no room."""
         if self._inbox_size >= CAPACITY:
             return False
         self._inbox.append(data)
@@ -206,9 +206,9 @@ class MemoryTransport(asyncio.Transport):
             self._loop.call_soon(self._hand_on)
 
     def _hand_on(self) -> None:
-        """Hand over what waits, and the end behind it."""
+        """Hand over the data that waits, and then the end."""
         self._due = False
-        for _ in range(len(self._inbox)):  # no more: others have their turn too
+        for _ in range(len(self._inbox)):  # not what comes meanwhile, so that others can run
             if not self._reading:
                 break
             data = self._inbox.popleft()
@@ -244,7 +244,7 @@ class MemoryTransport(asyncio.Transport):
     # the end
 
     def _fail(self, error: Exception | None) -> None:
-        """Lose the connection, and what has not been taken."""
+        """Lose the connection, and the data that the other side has not taken."""
         self._closing = True
         self._reading = False
         self._outbox.clear()
@@ -267,7 +267,7 @@ class MemoryTransport(asyncio.Transport):
                 other._end_of_data()
 
     def _call(self, method: str, *arguments: object) -> object:
-        """Call the protocol, as from the loop: what it raises is reported there."""
+        """Call the protocol; an exception goes to the loop's exception handler."""
         try:
             return getattr(self._protocol, method)(*arguments)
         except (SystemExit, KeyboardInterrupt):
@@ -291,7 +291,7 @@ class MemoryTransport(asyncio.Transport):
 def connect_in_memory(
     protocol: asyncio.BaseProtocol, other: asyncio.BaseProtocol
 ) -> tuple[MemoryTransport, MemoryTransport]:
-    """Connect two protocols of the running loop with each other; their transports."""
+    """Connect two protocols of the running loop, and return their transports."""
     loop = asyncio.get_running_loop()
     pair = MemoryTransport(loop), MemoryTransport(loop)
     for transport, opposite, attached in zip(pair, reversed(pair), (protocol, other), strict=True):
@@ -303,7 +303,7 @@ def connect_in_memory(
 
 
 def _unchanging(data: bytes | bytearray | memoryview) -> _Data:
-    """The same octets, where nobody can change them: only the memory of bytes never can."""
+    """Return the same bytes in memory that nobody can change, without a copy if possible."""
     view = memoryview(data)
     if view.obj.__class__ is bytes and view.c_contiguous:
         return view.cast("B")

@@ -1,16 +1,16 @@
-"""Shorter ways than TCP between nodes of this library: within one host, within one loop.
+"""Transports faster than TCP between nodes of this library: on one host, in one event loop.
 
-A subscriber asks a publisher with ``requestTopic`` for TCPROS and, behind it, for what it
-knows besides; others pass over what they do not know. What is asked for names the place
-where the subscriber is, so that only a publisher of the same place takes it up:
+With ``requestTopic`` a subscriber asks a publisher for TCPROS and, after it, for the other
+transports it knows; other libraries ignore those. Each request names where the subscriber
+is, so that only a publisher in the same place accepts it:
 
 * ``["INTRAPROCESS", loop]``: a random token of the event loop. Answered with the key of a
   node in it. Two loops of one process, in two threads, are two places.
-* ``["UNIXROS", host]``: a digest of what names a running kernel and a network namespace of
-  it, which is as far as abstract Unix sockets reach. A host name would not do: containers
-  copy them. Answered with the name of a socket.
+* ``["UNIXROS", host]``: a digest that identifies a running kernel and one of its network
+  namespaces, which is as far as abstract Unix sockets reach. Host names do not identify
+  them, because containers share them. Answered with the name of a socket.
 
-On both, the handshake and everything behind it are those of TCPROS.
+On both, the handshake and the messages are those of TCPROS.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ _SOCKET_NAME = re.compile(r"aioros1\.[0-9a-f]{32}")
 
 @functools.lru_cache(1)
 def _host_key() -> str | None:
-    """What two processes have in common that can connect with abstract Unix sockets.
+    """Identify the host and network namespace, within which abstract Unix sockets work.
 
-    A digest, because the parts are nobody's business; None where there are no such
-    sockets, or no telling.
+    A digest, so that the parts are not disclosed. ``None`` where there are no such sockets,
+    or the parts cannot be read.
     """
     if not sys.platform.startswith("linux"):
         return None
@@ -60,8 +60,8 @@ def _host_key() -> str | None:
 class LocalTransports:
     """The local transports of one node, for both sides of its topics.
 
-    ``wanted`` says which of them are used. ``listener`` serves the connections that come
-    in, with those over TCP, and under the same limits.
+    ``wanted`` names those to use. ``listener`` serves their connections together with those
+    over TCP, and under the same limits.
     """
 
     def __init__(self, wanted: Collection[LocalTransport], listener: Listener) -> None:
@@ -73,7 +73,7 @@ class LocalTransports:
         self._name: str | None = None
 
     async def start(self) -> None:
-        """Let others connect. Where a transport cannot be had, others go without."""
+        """Let others connect. A transport that the system does not offer is left out."""
         if self._in_process:
             self._loop_state = loop_state()
             self._loop_state.listeners[self._key] = self._listener
@@ -82,11 +82,11 @@ class LocalTransports:
             try:
                 await self._listener.listen_unix(f"\0{name}")
             except OSError:
-                return  # forbidden, by a sandbox perhaps
+                return  # forbidden, perhaps by a sandbox
             self._name = name
 
     def close(self) -> None:
-        """Take no more connections; those that are open stay so."""
+        """Accept no more connections; open ones stay open."""
         self._name = None
         if self._loop_state is not None:
             self._loop_state.listeners.pop(self._key, None)
@@ -95,7 +95,7 @@ class LocalTransports:
     # a subscriber's side
 
     def offers(self) -> list[list[str]]:
-        """What to ask a publisher for, besides TCPROS."""
+        """Return what to ask a publisher for, besides TCPROS."""
         offers = []
         if self._in_process:
             offers.append([INTRAPROCESS, loop_state().token])
@@ -104,7 +104,7 @@ class LocalTransports:
         return offers
 
     async def connect(self, answer: Sequence[Any]) -> Stream:
-        """Connect to the publisher that gave this answer to what was asked for.
+        """Connect to the publisher that answered a request with ``answer``.
 
         Raises :class:`ConnectionError`.
         """
@@ -120,7 +120,7 @@ class LocalTransports:
     # a publisher's side
 
     def answer(self, protocols: Sequence[Sequence[Any]]) -> list[str] | None:
-        """What to answer to a subscriber that asks for these; None for TCPROS."""
+        """Return the answer to a subscriber that asks for ``protocols``; None means TCPROS."""
         wanted: Mapping[str, Any] = {each[0]: each[1] for each in protocols if len(each) == 2}
         state = self._loop_state
         if state is not None and wanted.get(INTRAPROCESS) == state.token:
@@ -147,8 +147,8 @@ async def _connect_unix(name: str) -> Stream:
     sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         sock.setblocking(False)
-        # It never waits, and fails when too many others are waiting to be accepted;
-        # asyncio would take that for a connection under way, as it is for TCP.
+        # This never waits, and fails if too many others are waiting to be accepted. asyncio
+        # would take that failure for a connection in progress, as it is with TCP.
         sock.connect(f"\0{name}")
         reader, writer = await asyncio.open_unix_connection(sock=sock)
     except BaseException:

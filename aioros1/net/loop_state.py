@@ -29,10 +29,10 @@ class LoopState:
 
     __slots__ = (
         "__weakref__",
-        "_receive_buffer",
         "coalescer",
         "listeners",
         "loop",
+        "receive_buffer",
         "thread_id",
         "token",
     )
@@ -49,10 +49,7 @@ class LoopState:
         """Names the loop to its own nodes. Nobody outside can guess it."""
         self.listeners: dict[str, Listener] = {}
         """The nodes of the loop that take connections within it, each by a key."""
-        self._receive_buffer: memoryview | None = None
-
-    @property
-    def receive_buffer(self) -> memoryview:
+        self.receive_buffer = memoryview(bytearray(READ))  # pages come when they are used
         """Where sockets are read into; one for all connections of the loop.
 
         It is in use only between a protocol's ``get_buffer()`` and its ``buffer_updated()``,
@@ -69,10 +66,6 @@ class LoopState:
         Neither protocols over TLS nor loops that leave a read to the kernel while they run
         other code (as io_uring can) are used; the latter would need a buffer for each link.
         """
-        buffer = self._receive_buffer
-        if buffer is None:
-            buffer = self._receive_buffer = memoryview(bytearray(READ))
-        return buffer
 
     def check_thread(self, what: str) -> None:
         """Refuse a call from another thread than the one that runs the loop.
@@ -81,12 +74,14 @@ class LoopState:
         ran it may call. Raises :class:`RuntimeError`.
         """
         if _get_running_loop() is self.loop:
-            self.thread_id = get_ident()
-        elif self.thread_id != get_ident() or self.loop.is_running():
+            return
+        is_known = self.thread_id != get_ident()
+        if is_known or self.loop.is_running():
+            owner = f"thread {_thread_name(self.thread_id)!r}" if is_known else "another thread"
             raise RuntimeError(
                 f"{what} was called in thread {threading.current_thread().name!r}, but belongs "
-                f"to the event loop in thread {_thread_name(self.thread_id)!r}: use "
-                "loop.call_soon_threadsafe(...) there, or NodeThread.call"
+                f"to the event loop in {owner}: use loop.call_soon_threadsafe(...) there, "
+                "or NodeThread.call"
             )
 
 

@@ -1,9 +1,9 @@
 """The data phase of service connections: requests one way, answers the other.
 
-Streams carry the handshake, and then the transport is taken over, as for topics: a
-``StreamReader`` wakes its reader for the length and again for the rest, and each of these
-waits would have a timeout of its own. Here, what came is looked at where it arrives, one
-future is resolved for a whole frame, and the clock runs only while half a frame is there.
+After the handshake on streams, a protocol takes the transport over, as for topics. A
+``StreamReader`` would wake its reader for the length and again for the rest, each time with
+a timeout of its own. Here data is parsed where it arrives, one future is resolved for a
+whole frame, and a timer runs only while a frame is incomplete.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from aioros1.wire.service import ServiceFrameError, frame_length
 __all__ = ["ServiceLink"]
 
 _AHEAD = 64 * 1024
-"""Bytes that are read before anybody wants them."""
+"""Bytes that are read ahead while nobody receives."""
 
 
 class ServiceLink(asyncio.Protocol):
-    """One side of a service connection, which takes the frames of the other, one by one.
+    """One side of a service connection; it receives the frames of the other one by one.
 
-    ``head`` is the number of bytes up to the end of a frame's length: 4 of a request, 5 of
-    an answer. The memory used grows with the bytes that came, not with what a length says.
+    ``head`` is the number of bytes up to the end of a frame's length: 4 in a request, 5 in
+    an answer. Memory grows with the bytes received, not with the length announced.
     ``patience`` is how many seconds may pass without a byte while a frame is incomplete,
-    ``stall`` how many while nothing is taken of what was written.
+    ``stall`` how many while the other side takes nothing of what was written.
     """
 
     def __init__(
@@ -45,10 +45,10 @@ class ServiceLink(asyncio.Protocol):
         self._wanted = 0  # bytes of the frame in the buffer, once its length is there
         self._receiver: asyncio.Future[Any] | None = None
         self.at_once: Callable[[bytes], Any] | None = None
-        """Is given each frame that is waited for, as long as what is written is taken. What
-        it returns :meth:`receive` returns in place of the frame; with None it waits on."""
+        """Called with each frame that :meth:`receive` waits for, unless data waits to be sent.
+        :meth:`receive` returns its result in place of the frame, or waits on if it is None."""
         self.ended: Callable[[], None] | None = None
-        """Is called when the other side will send no more."""
+        """Called when the other side will send no more."""
         self._timer: asyncio.TimerHandle | None = None
         self._is_paused = False
         self._has_ended = False
@@ -61,7 +61,7 @@ class ServiceLink(asyncio.Protocol):
         self._transport = cast("asyncio.Transport", transport)
 
     def data_received(self, data: bytes) -> None:
-        """Take bytes, also those that came behind the connection header."""
+        """Take bytes, including those that followed the connection header."""
         receiver = self._receiver
         if receiver is None or receiver.done():
             self._buffer += data
@@ -71,7 +71,7 @@ class ServiceLink(asyncio.Protocol):
             return
         try:
             if not self._buffer and self._size_of(data) == len(data):
-                frame: bytes | None = data  # which is how small ones come: no copy
+                frame: bytes | None = data  # the usual case of small ones: no copy
             else:
                 self._buffer += data
                 frame = self._next()
@@ -83,7 +83,7 @@ class ServiceLink(asyncio.Protocol):
             return
         if self._timer is not None:
             self._set_timer(None)
-        # Last, for what is called may do anything.
+        # Last, because the function that is called may do anything.
         if self.at_once is None or self._buffer or self._writable is not None:
             receiver.set_result(frame)
         elif (result := self.at_once(frame)) is not None:
@@ -91,7 +91,7 @@ class ServiceLink(asyncio.Protocol):
 
     def eof_received(self) -> bool:
         self._end()
-        return True  # it may still want to have its answer
+        return True  # it may still wait for its answer
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._failure = exc
@@ -111,17 +111,17 @@ class ServiceLink(asyncio.Protocol):
 
     @property
     def is_full(self) -> bool:
-        """Whether the other side does not take what is written as quickly as it comes."""
+        """Whether the other side takes data more slowly than it is written."""
         return self._writable is not None
 
     @property
     def is_fresh(self) -> bool:
-        """Whether the next bytes to come can only be the answer to the next request: neither
-        end is closed, and nothing has come that nobody has asked for."""
+        """Whether the next bytes can only be the answer to the next request: the connection is
+        open, and no bytes are left that nobody asked for."""
         return not (self._buffer or self._has_ended or self._transport.is_closing())
 
     async def receive(self, *, patience: float | None) -> Any:
-        """The next frame with its head; None when the connection ends before.
+        """Return the next frame with its head; None if the connection ends before it.
 
         ``patience`` is how many seconds its first byte may take. Raises
         :class:`TimeoutError`, :class:`OSError` when the connection fails, and
@@ -146,7 +146,7 @@ class ServiceLink(asyncio.Protocol):
                 self._set_timer(None)
 
     def write(self, data: bytes) -> None:
-        """Write; :meth:`drain` has to follow where :attr:`is_full`.
+        """Write ``data``; call :meth:`drain` afterwards if :attr:`is_full`.
 
         Raises :class:`OSError` when the connection is lost.
         """
@@ -169,7 +169,7 @@ class ServiceLink(asyncio.Protocol):
                 raise TimeoutError(f"{self.peer} took nothing for {self._stall} s")
 
     def stop_reading(self) -> None:
-        """Let whoever receives see the end, as if the other side had closed."""
+        """End :meth:`receive` as if the other side had closed."""
         self._transport.pause_reading()
         self._end()
 
@@ -180,14 +180,14 @@ class ServiceLink(asyncio.Protocol):
     # frames
 
     def _size_of(self, data: bytes | bytearray) -> int:
-        """The bytes of the frame that ``data`` begins with; 0 if its length is not there yet."""
+        """Return the size of the first frame in ``data``; 0 while its length is incomplete."""
         head = self._head
         if len(data) < head:
             return 0
         return head + frame_length(data[head - 4 : head], self._max_bytes)
 
     def _next(self) -> bytes | None:
-        """Take the first frame of the buffer, if it is whole."""
+        """Take the first frame out of the buffer, if it is complete."""
         buffer = self._buffer
         if not self._wanted:
             self._wanted = self._size_of(buffer)

@@ -1,8 +1,7 @@
-"""Connections on asyncio streams: made over TCP, accepted, and handed to a protocol.
+"""TCPROS connections on asyncio streams: made, accepted, and handed over to a protocol.
 
-Streams carry the handshake. The data phase then takes the transport over with a protocol
-of its own (:func:`take_over`): reading messages one by one through a ``StreamReader`` costs
-three to five times as much.
+Streams carry the handshake. Then a protocol takes the transport over (:func:`take_over`),
+because reading messages through a ``StreamReader`` costs three to five times as much.
 """
 
 from __future__ import annotations
@@ -18,21 +17,22 @@ from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
-from aioros1.net.hosts import bind_sockets, probe, resolve
+from aioros1.net.connecting import connect as connect_tcp
+from aioros1.net.hosts import bind_sockets, set_keepalive
 from aioros1.options import Limits, Timeouts
 
 __all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
 
 _LOG = logging.getLogger("aioros1.tcpros")
 
-# After so many parts of the first silence TCP asks again, and so often. Of a minute this
-# makes 10 seconds and 9 times: what roscpp sets, so that a peer that lost its power is
-# noticed at all.
+# TCP sends its first keepalive probe after some idle time, then one after each sixth of
+# that time, nine in all. With an idle time of a minute this is what roscpp sets, so that a
+# peer that lost its power is noticed at all.
 _PARTS, _PROBES = 6, 9
 _LONGEST = 32767  # seconds; no kernel takes more
 
-# What a Unix socket may hold that the other side has not read. The usual 200 KiB make a
-# message of 1 MB twice as slow, because sender and receiver then have to take turns.
+# The send buffer of a Unix socket. With the usual 200 KiB a message of 1 MB takes twice as
+# long, because sender and receiver have to take turns.
 _UNIX_BUFFER = 1 << 20
 
 
@@ -46,7 +46,7 @@ class Side(Protocol):
 
 
 class Stream:
-    """A connection in the streams phase: a reader and a writer with what both need."""
+    """A connection during the handshake: a reader, a writer, and what both need."""
 
     __slots__ = ("peer", "reader", "transport_name", "writer")
 
@@ -76,7 +76,7 @@ class Stream:
         return cast("asyncio.Transport", self.writer.transport)
 
     async def receive_header(self, side: Side, *, timeout: float) -> None:
-        """Read until ``side`` has its header, and not a byte beyond it.
+        """Read until ``side`` has its header, and not a byte more.
 
         Raises :class:`~aioros1.HandshakeError`, :class:`TimeoutError`, and
         :class:`ConnectionError` when the connection ends before.
@@ -99,9 +99,9 @@ class Stream:
             ) from error
 
     async def write(self, data: bytes, *, stall: float) -> None:
-        """Write, and wait until the other side has taken enough of it.
+        """Write ``data``, and wait until the other side has taken enough of it.
 
-        Raises :class:`TimeoutError` when it takes nothing for ``stall`` seconds.
+        Raises :class:`TimeoutError` if it takes nothing for ``stall`` seconds.
         """
         self.writer.write(data)
         transport = self.writer.transport
@@ -128,36 +128,44 @@ class Stream:
 
 
 async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
-    """A connection to ``host``; each of its addresses is tried in turn.
+    """Connect to whichever address of ``host`` answers first; see :mod:`.connecting`.
 
     Raises :class:`ConnectionError` or :class:`TimeoutError`, both naming host and port.
     """
+    loop = asyncio.get_running_loop()
+    readers: dict[asyncio.BaseProtocol, asyncio.StreamReader] = {}  # a protocol does not keep it
+
+    def stream_protocol() -> asyncio.StreamReaderProtocol:
+        reader = asyncio.StreamReader(loop=loop)
+        protocol = asyncio.StreamReaderProtocol(reader, loop=loop)
+        readers[protocol] = reader
+        return protocol
+
+    # The limit may pass while no address has failed yet, and then the kernel's own timeout
+    # of a connection (which is an OSError, too) must not be taken for it.
+    limit = asyncio.timeout(timeouts.connect)
     try:
-        async with asyncio.timeout(timeouts.connect):
-            failure: OSError | None = None
-            for family, address in await resolve(host, port):
-                try:
-                    reader, writer = await asyncio.open_connection(address, port, family=family)
-                except OSError as error:
-                    failure = error
-                else:
-                    return Stream(reader, writer, timeouts)
-    except TimeoutError:
-        raise TimeoutError(f"no connection to {host}:{port} within {timeouts.connect} s") from None
-    except OSError as error:  # the name could not be resolved
-        failure = error
-    raise ConnectionError(f"cannot connect to {host}:{port}: {failure}") from failure
+        async with limit:
+            transport, protocol = await connect_tcp(stream_protocol, host, port)
+    except OSError as error:
+        if limit.expired():
+            raise TimeoutError(
+                f"no connection to {host}:{port} within {timeouts.connect} s"
+            ) from None
+        raise ConnectionError(f"cannot connect to {host}:{port}: {error}") from error
+    reader = readers[protocol]
+    return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop), timeouts)
 
 
 async def take_over(stream: Stream, protocol: asyncio.BaseProtocol) -> bytes:
     """Give the stream's transport to ``protocol`` and return what the reader still holds.
 
-    Nothing is lost between the two: no other code runs inside this function, because
-    reading what a reader at its end holds does not wait. The end of the connection, if
-    it was seen already, is seen again by ``protocol``, once reading is resumed.
+    No byte is lost: no other code runs inside this function, because a reader at its end
+    returns what it holds without waiting. If the end of the connection was seen already,
+    ``protocol`` sees it again once reading is resumed.
 
-    Raises :class:`ConnectionError` when the connection is lost already, which
-    ``protocol`` would never be told.
+    Raises :class:`ConnectionError` if the connection is lost already, because ``protocol``
+    would never be told.
     """
     transport = stream.transport
     if transport.is_closing():
@@ -178,7 +186,7 @@ def connection_info(
     peer: str,
     header: Mapping[str, str],
 ) -> ConnectionInfo:
-    """What there is to know of a connection whose handshake is done."""
+    """Describe a connection whose handshake is done."""
     writer = stream.writer
     sock = writer.get_extra_info("socket")
     over_ip = stream.transport_name == "TCPROS"
@@ -195,11 +203,11 @@ def connection_info(
 
 
 class Listener:
-    """The TCPROS port of a node, and other ways to connect to it.
+    """Accepts the TCPROS connections of a node, over TCP and by other transports.
 
-    ``spawn(function, stream, name=...)`` must run ``function(stream)`` in a task of the
-    caller's, so that every connection is owned. A connection from an address that is not
-    in ``allow``, or beyond the limits, is closed at once, before anything is read of it.
+    ``spawn(function, stream, name=...)`` must run ``function(stream)`` in a task that the
+    caller owns. A connection from an address that is not in ``allow``, or beyond the
+    limits, is closed at once, before anything is read from it.
     """
 
     def __init__(
@@ -226,7 +234,7 @@ class Listener:
         self.port = 0
 
     async def start(self, host: str, port: int) -> None:
-        """Listen. Raises :class:`OSError` when the address is taken or not ours."""
+        """Listen. Raises :class:`OSError` if the address is in use, or not of this machine."""
         sockets = bind_sockets(host, port)
         self.port = sockets[0].getsockname()[1]
         # One socket: bind_sockets gives several only for a name with several addresses.
@@ -248,13 +256,13 @@ class Listener:
         await self._listen(server)
 
     async def _listen(self, server: asyncio.Server) -> None:
-        # Not in one with making it: asyncio lets others run once it serves, and if that is
-        # cancelled nobody has the server and could close it.
+        # Not in one step with creating it: starting to serve lets other tasks run, and if
+        # this one was cancelled then, nobody would have the server to close it.
         self._servers.append(server)
         await server.start_serving()
 
     def new_protocol(self) -> asyncio.StreamReaderProtocol:
-        """What a connection that needs no socket is to be made with, on our side."""
+        """Make a protocol for our side of a connection that needs no socket."""
         loop = asyncio.get_running_loop()
         reader = asyncio.StreamReader(loop=loop)
         return asyncio.StreamReaderProtocol(reader, self._accepted, loop=loop)
@@ -267,7 +275,7 @@ class Listener:
         try:
             stream = Stream(reader, writer, self._timeouts)
             self._spawn(partial(self._run, host), stream, name=f"tcpros {stream.peer}")
-        except (ClosedError, OSError):  # nobody to serve it, or it has gone again
+        except (ClosedError, OSError):  # the node is closed, or the peer has gone
             self.admission.leave(host)
             writer.transport.abort()
 
@@ -278,7 +286,7 @@ class Listener:
             self.admission.leave(host)
 
     def close(self) -> None:
-        """Stop listening; connections that are open stay so."""
+        """Stop listening; open connections stay open."""
         while self._servers:
             self._servers.pop().close()
 
@@ -286,9 +294,9 @@ class Listener:
 def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     idle = min(max(timeouts.keepalive, 1), _LONGEST)
-    probe(sock, (round(idle), round(max(idle / _PARTS, 1)), _PROBES))
-    # While there is data on its way nothing is probed: it is sent again and again, for a
-    # quarter of an hour. In milliseconds; where it is set, probes end with it too.
+    set_keepalive(sock, round(idle), round(max(idle / _PARTS, 1)), _PROBES)
+    # While data is unacknowledged TCP does not probe but retransmits, for a quarter of an
+    # hour. This limits both. In milliseconds.
     option = getattr(socket, "TCP_USER_TIMEOUT", None)  # Linux has it
     if option is not None:
         given_up = max(idle + _PROBES * idle / _PARTS, timeouts.stall)

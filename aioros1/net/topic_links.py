@@ -1,4 +1,4 @@
-"""The data phase of topics: the protocols that carry messages once hands are shaken.
+"""The data phase of topics: the protocols that carry messages after the handshake.
 
 :class:`IncomingLink` is one connection of a subscriber, :class:`OutgoingLink` one of
 a publisher. Neither knows what a message is.
@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
-from aioros1.net.loop_state import loop_state
 from aioros1.net.tcpros import Stream
 from aioros1.wire.frames import FrameError, FrameReceiver
 from aioros1.wire.handshake import TopicOffer
@@ -23,11 +22,11 @@ Frame = bytes | Sequence[bytes | memoryview]
 """A message with its length prefix: in one piece or, if large, in several."""
 
 JOIN = 64 * 1024
-"""Bytes joined into one write. More makes the copy dearer than the system call it saves."""
+"""Bytes joined into one write. Copying more would cost more than the system call it saves."""
 
 
 class Batch:
-    """Data that holds whole frames, and what they have in common."""
+    """Data that holds complete frames, and what they have in common."""
 
     __slots__ = ("data", "link", "received")
 
@@ -38,15 +37,15 @@ class Batch:
 
 
 Received = tuple[Batch, int, int]
-"""A frame that came in: the batch, and where in its data the frame starts and stops."""
+"""A received frame: its batch, and where it starts and stops in the batch's data."""
 
 
 class IncomingLink(asyncio.BufferedProtocol):
     """One connection to a publisher.
 
-    ``deliver(frames)`` is called with every batch of complete frames. It may call
-    :meth:`pause`, and then has to call :meth:`resume` as often: while anyone wants
-    the link paused, its socket is not read, and TCP carries the pressure back.
+    ``deliver(frames)`` is called with every batch of complete frames. Whoever calls
+    :meth:`pause` has to call :meth:`resume` as often. While a link is paused its socket is
+    not read, and TCP makes the publisher wait.
     """
 
     def __init__(
@@ -57,23 +56,24 @@ class IncomingLink(asyncio.BufferedProtocol):
         deliver: Callable[[list[Received]], None],
         on_closed: Callable[[], None],
         clock: Callable[[], int],
+        buffer: memoryview,
         *,
         max_bytes: int,
     ) -> None:
         self.info = info
         self.offer = offer
-        """What the publisher says it publishes."""
+        """What the publisher announced in the handshake."""
         self.is_closed = False
         self.latched: Received | None = None
-        """The last message, if the publisher latches: for subscribers that come later."""
+        """The last message of a latching publisher, for subscribers that are opened later."""
         self.failure: str | None = None
-        """Why we closed the connection, if we did."""
+        """Why the connection was lost, or why this side closed it."""
         self._deliver = deliver
         self._on_closed = on_closed
         self._clock = clock
         self._stream = stream  # a StreamWriter that is collected closes its transport
         self._transport: asyncio.Transport | None = None
-        self._receiver = FrameReceiver(self, loop_state().receive_buffer, max_bytes=max_bytes)
+        self._receiver = FrameReceiver(self, buffer, max_bytes=max_bytes)
         self._pauses = 0
         self._seen = 0
 
@@ -109,8 +109,8 @@ class IncomingLink(asyncio.BufferedProtocol):
         self._on_closed()
 
     def block_received(self, data: bytes | memoryview) -> None:
-        """Take bytes that came behind the connection header, or from a transport that has
-        them in memory; they must not change."""
+        """Take bytes that followed the connection header, or that a transport has in memory.
+        They must not change."""
         try:
             self._receiver.block(data)
         except FrameError as error:
@@ -134,7 +134,7 @@ class IncomingLink(asyncio.BufferedProtocol):
             self._transport.abort()
 
     def has_progressed(self) -> bool:
-        """Whether bytes came since this was asked last, or none can because of a pause."""
+        """Whether bytes came since the last call, or none could because of a pause."""
         seen, self._seen = self._seen, self._receiver.bytes_received
         return self._pauses > 0 or seen != self._seen
 
@@ -147,13 +147,13 @@ class LinkOwner(Protocol):
     """The publication an :class:`OutgoingLink` belongs to."""
 
     def link_paused(self, link: OutgoingLink) -> None:
-        """The link takes no more; messages for it have to wait in its queue."""
+        """The link takes no more now; messages for it have to wait in its queue."""
 
     def link_opened(self, link: OutgoingLink) -> None:
         """The link takes messages again, its queue is empty."""
 
     def messages_lost(self, link: OutgoingLink) -> None:
-        """What waits in the link's queue will not be sent."""
+        """The messages in the link's queue will not be sent."""
 
     def link_closed(self, link: OutgoingLink) -> None:
         """The connection is gone."""
@@ -165,10 +165,10 @@ class LinkOwner(Protocol):
 class OutgoingLink(asyncio.Protocol):
     """One connection to a subscriber, and the messages that wait for it.
 
-    As long as the kernel takes what is written the link is *open* and its queue empty;
-    the publication then writes the same blocks to all open links. The transport's own
-    write buffer is kept at zero: as soon as the kernel takes no more, the link stops
-    being open, and messages wait in :attr:`queue`, where they can still be dropped.
+    As long as the kernel takes what is written, the link is *open* and its queue empty, and
+    the publication writes the same blocks to all open links. The high-water mark of the
+    transport's write buffer is zero: once the kernel takes no more, the link is no longer
+    open, and messages wait in :attr:`queue`, where they can still be dropped.
     """
 
     def __init__(
@@ -178,11 +178,11 @@ class OutgoingLink(asyncio.Protocol):
         self.is_open = True
         self.is_closed = False
         self.queue: deque[tuple[Frame, Any]] = deque()
-        """What waits: the frame, and the publisher whose limits apply to it."""
+        """The messages that wait: each frame, and the publisher whose limits apply to it."""
         self.stalled = False
-        """Whether the connection was cut off because nothing was taken from it."""
+        """Whether the connection was cut off because the subscriber read nothing."""
         self.failure = ""
-        """What ended the connection, if it was neither side's wish."""
+        """Why the connection ended, if neither side closed it."""
         self._owner = owner
         self._stall = stall
         self._closing = False
@@ -196,9 +196,13 @@ class OutgoingLink(asyncio.Protocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast("asyncio.Transport", transport)
         self._transport.set_write_buffer_limits(high=0)
+        if self.unsent() and self.is_open:
+            # The header alone was more than the kernel took. The transport has told the
+            # protocol of the handshake, and does not tell it again.
+            self.pause_writing()
 
     def data_received(self, data: bytes) -> None:
-        """A subscriber has nothing to say; what it says is dropped, as rospy does."""
+        """Drop it: a subscriber has nothing to send. rospy drops it, too."""
 
     def pause_writing(self) -> None:
         if self.is_open:
@@ -214,8 +218,8 @@ class OutgoingLink(asyncio.Protocol):
             self.is_open = True
             self._owner.link_opened(self)
             if self._closing and self._transport is not None:
-                # Not at once: asyncio's transport, which is calling us, would then report
-                # the end of the connection twice.
+                # Not now: asyncio's transport is calling this method, and would report the
+                # end of the connection twice.
                 asyncio.get_running_loop().call_soon(self._transport.close)
         self._owner.room_made()
 
@@ -234,7 +238,7 @@ class OutgoingLink(asyncio.Protocol):
     # for the publication
 
     def write(self, frame: Frame, messages: int) -> None:
-        """Write to an open link; it may not be open any more afterwards."""
+        """Write to an open link, which may no longer be open afterwards."""
         transport = self._transport
         if transport is None or transport.is_closing():
             return
@@ -249,7 +253,7 @@ class OutgoingLink(asyncio.Protocol):
         stats.messages += messages
 
     def close(self) -> None:
-        """Send what waits, then close. A peer that takes nothing is still cut off."""
+        """Send the messages that wait, then close. A peer that stalls is still cut off."""
         self._closing = True
         if self._transport is not None and not self.queue:
             self._transport.close()
@@ -259,11 +263,11 @@ class OutgoingLink(asyncio.Protocol):
             self._transport.abort()
 
     async def wait_closed(self) -> None:
-        # A shield, so that a cancelled wait leaves the future to the next one.
+        # A shield, so that cancelling this wait does not cancel those of others.
         await asyncio.shield(self._closed)
 
     def unsent(self) -> int:
-        """Bytes the kernel has not taken yet, without what is still queued."""
+        """Bytes the kernel has not taken yet, without those of :attr:`queue`."""
         return 0 if self._transport is None else self._transport.get_write_buffer_size()
 
     def _write_some(self) -> None:
@@ -284,7 +288,7 @@ class OutgoingLink(asyncio.Protocol):
         self.write(b"".join(block), len(block))
 
     def _watch_progress(self, unsent: int) -> None:
-        """Cut the peer off when a whole period passes without a byte being taken."""
+        """Cut the peer off if it takes no byte for a whole period."""
         now = self.unsent()
         if now == unsent:
             self.stalled = True

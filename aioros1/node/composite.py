@@ -98,8 +98,9 @@ class Composite:
         if self._state == "new":
             self._state = "closed"
         if self._state in ("opening", "open"):
-            self._state = "closed"
             context = self._node._context
+            context.check_loop()
+            self._state = "closed"
             self._closing = context.spawn(self._finish, name=f"close {self!r}")
         if self._closing is not None:
             await asyncio.wait({self._closing})
@@ -180,7 +181,7 @@ class Composite:
             while self._owned:
                 await self._owned.pop().close()
         finally:
-            self._node._context.dismiss(self)
+            self._node._context.members.pop(self, None)
 
     def _drop(self) -> None:
         self._state = "closed"

@@ -28,6 +28,7 @@ from aioros1.idl import MessageStore, default_store
 from aioros1.log.levels import LevelChanges
 from aioros1.log.node_log import NodeLog
 from aioros1.net.allow import AllowList
+from aioros1.net.loop_state import loop_state
 from aioros1.node.acceptor import Acceptor
 from aioros1.node.closing import close_members
 from aioros1.node.heartbeat import Heartbeat
@@ -243,6 +244,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         if self._supervisor.state != "new":
             raise RuntimeError(f"node {self.name} was started before; make a new Node")
         self._supervisor.state = "starting"
+        self._context.loop_state = loop_state()
         await self._supervisor.start()
         return self
 
@@ -257,7 +259,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         if supervisor.state == "new":
             supervisor.state = "closed"
             return
-        supervisor.check_loop()
+        self._context.check_loop()
         if timeout is not None:
             self._close_timeout = timeout
         supervisor.end("closed")
@@ -274,6 +276,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
         Raises the exception that closed it, if one did (``on_error="raise"``).
         """
+        self._context.check_loop()
         await self._supervisor.wait()
         if self._user_errors.failure is not None:
             raise self._user_errors.failure
@@ -399,6 +402,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     def events(self) -> EventStream[Event]:
         """Iterate over what happens to the node from now on; ends with the node."""
+        self._context.check_loop()
         return self._events.subscribe()
 
     # tasks
@@ -464,6 +468,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     async def sleep(self, duration: float | Duration) -> None:
         """Wait for seconds of this node's time. Raises :class:`~aioros1.ClosedError`."""
+        self._context.check_loop()
         await self._context.clock.sleep(duration)
 
     def rate(self, hz: float) -> Rate:
@@ -471,6 +476,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
         Raises :class:`ValueError` for a rate that is not positive.
         """
+        self._context.check_loop()
         return Rate(self._context.clock, period_of(hz))
 
     def timer(
@@ -504,6 +510,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         For whoever drives that. Raises :class:`TimeoutError` after ``timeout`` seconds, and
         :class:`~aioros1.ClosedError`.
         """
+        self._context.check_loop()
         await self._context.clock.wait_until_shows(time.to_nsec(), timeout=timeout)
 
     def __repr__(self) -> str:

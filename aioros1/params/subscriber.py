@@ -48,6 +48,7 @@ class ParamSubscriber(Role):
         return copy.deepcopy(value)
 
     def __aiter__(self) -> Self:
+        self._context.check_loop()
         return self
 
     async def __anext__(self) -> ParamUpdate:

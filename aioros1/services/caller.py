@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+from asyncio import _get_running_loop
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import EllipsisType
@@ -146,11 +147,12 @@ class ServiceCaller(Role, Generic[Q, A]):
         when it is cancelled the connection is closed, so that an answer that comes late
         is never taken for another call's.
         """
-        self._check_open()
+        if not self._is_open or _get_running_loop() is not self._loop:
+            self._check_open()
         side = self._side
         if fields or request.__class__ is not side.outgoing_class:
             request = side.outgoing(request, fields)
-        answer = await self._call(side, side.frame(request), timeout)
+        answer = await self._call(side, request, timeout)
         return cast("A", answer)
 
     async def call_raw(
@@ -166,15 +168,17 @@ class ServiceCaller(Role, Generic[Q, A]):
         """
         self._check_open()
         side = self._raw_side
-        answer = await self._call(side, side.frame(side.outgoing(buffer, {})), timeout)
+        answer = await self._call(side, side.outgoing(buffer, {}), timeout)
         return cast("bytes", answer)
 
-    async def _call(self, side: Side, frame: bytes, timeout: float | EllipsisType | None) -> Any:
+    async def _call(self, side: Side, request: Any, timeout: float | EllipsisType | None) -> Any:
+        frame = side.frame(request)
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
         kept, mutex = self._kept, self._mutex
-        if seconds is None and kept is not None and kept.link.is_fresh and mutex.try_acquire():
+        if seconds is None and kept is not None and not mutex.is_held and kept.link.is_fresh:
             # The quick way of most calls: there is nothing to wait for but the answer, and
             # that ends when the connection is closed. A deadline would cost 3 µs.
+            mutex.is_held = True
             try:
                 return await self._exchange(kept, side, frame)
             finally:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from aioros1.errors import SerializationError
@@ -44,10 +45,7 @@ def providers_side(service_class: type[Service[Any, Any]]) -> Side:
     """Requests come in, responses go out."""
     response_class = service_class._response_class
     requests, responses = codec_of(service_class._request_class), codec_of(response_class)
-
-    def outgoing(value: Any, fields: Mapping[str, Any]) -> Any:
-        return message_from(response_class, value, fields)
-
+    outgoing = partial(message_from, response_class)
     return Side(requests.decode, response_class, responses.frame, outgoing)
 
 
@@ -55,10 +53,7 @@ def callers_side(service_class: type[Service[Any, Any]]) -> Side:
     """Requests go out, responses come in."""
     request_class = service_class._request_class
     requests, responses = codec_of(request_class), codec_of(service_class._response_class)
-
-    def outgoing(value: Any, fields: Mapping[str, Any]) -> Any:
-        return message_from(request_class, value, fields, "request")
-
+    outgoing = partial(message_from, request_class, keyword="request")
     return Side(responses.decode, request_class, requests.frame, outgoing)
 
 

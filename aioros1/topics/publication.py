@@ -21,7 +21,6 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
 from aioros1.errors import Md5MismatchError
-from aioros1.net.loop_state import loop_state
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
 from aioros1.waiting import Waiters
@@ -69,7 +68,7 @@ class Publication(Shared[Publishing]):
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         # Plain attributes, for they are looked at for every message.
-        self.coalescer = loop_state().coalescer
+        self.coalescer = context.loop_state.coalescer
         self.is_congested = False
         """Whether messages wait in the queue of any connection."""
         self.has_subscribers = False
@@ -118,7 +117,7 @@ class Publication(Shared[Publishing]):
         stats = publisher.stats
         stats.messages += 1
         coalescer = self.coalescer
-        if coalescer.collecting_in and isinstance(frame, bytes):
+        if coalescer.is_collecting and isinstance(frame, bytes):
             size = len(frame)
             stats.bytes += size
             for link in self._slow:
@@ -217,7 +216,8 @@ class Publication(Shared[Publishing]):
     def _add(self, link: OutgoingLink) -> None:
         """A subscriber has connected: it gets what is latched, then what is published."""
         self._flush()
-        self._open += (link,)
+        if link.is_open:  # or it was paused by its own handshake, and is among the slow ones
+            self._open += (link,)
         self._look()
         for publisher in self.roles:
             if publisher._latched is not None:

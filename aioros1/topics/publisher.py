@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
-from threading import get_ident
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from weakref import WeakSet
 
@@ -111,7 +110,7 @@ class Publisher(Role, Generic[M]):
             raise self._closed_error()
         publication = self._publication
         coalescer = publication.coalescer
-        if coalescer.collecting_in != get_ident():
+        if not coalescer.collects_here():
             coalescer.begin()
         frame = self._encode(msg, fields)
         if self._blocks and publication.is_congested:
@@ -130,7 +129,7 @@ class Publisher(Role, Generic[M]):
         if self._blocks:
             self._require_room()
         coalescer = self._publication.coalescer
-        if coalescer.collecting_in != get_ident():
+        if not coalescer.collects_here():
             coalescer.begin()
         frame = frame_parts(buffer, join=JOIN)
         if self._latches:
@@ -165,7 +164,7 @@ class Publisher(Role, Generic[M]):
             await self._wait_until(
                 lambda: publication.has_room(self), timeout, "no room in the queue of a subscriber"
             )
-        if coalescer.collecting_in != get_ident():
+        if not coalescer.collects_here():
             coalescer.begin()
         frame = self._encode(msg, fields)
         if self._latches:

@@ -345,6 +345,7 @@ class _Follower:
             subscription.deliver,
             self._stir.set,
             context.clock.nanoseconds,
+            context.loop_state.receive_buffer,
             max_bytes=context.limits.message_bytes,
         )
         rest = await take_over(stream, link)

@@ -1,1 +1,1 @@
-"""What goes over the wire, as pure functions and state machines without any I/O."""
+"""The wire formats, as pure functions and state machines without any I/O."""

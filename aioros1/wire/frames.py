@@ -4,12 +4,11 @@
 protocol: it says where the next bytes should go and, told how many came, which
 frames are complete.
 
-Small frames are taken in batches. What one read of the socket brought is copied out
-of the receive buffer once, as one ``bytes``, and a frame is a position in it; so a
-read that brings thousands of messages costs one copy, not thousands. A frame larger
-than :data:`DIRECT` is received straight into memory of its own. That memory grows
-with the data that came and not with the length announced, so a peer that announces
-a gigabyte and sends nothing costs nothing.
+Small frames are taken in batches: what one read of the socket brought is copied out of the
+receive buffer once, as one ``bytes``, and a frame is a position in it. So a read that brings
+thousands of messages costs one copy. A frame larger than :data:`DIRECT` is received directly
+into memory of its own. That memory grows with the data received, not with the length
+announced, so a peer that announces a gigabyte and sends nothing costs nothing.
 """
 
 from __future__ import annotations
@@ -23,18 +22,18 @@ from aioros1.wire.allocation import keep_memory
 __all__ = ["DIRECT", "READ", "FrameError", "FrameReceiver", "FrameSink", "frame_parts"]
 
 READ = 256 * 1024
-"""Bytes asked of the socket at a time. Larger reads gain nothing on loopback."""
+"""Bytes read from a socket at a time. Larger reads gain nothing on loopback."""
 
 DIRECT = 4 * 1024
-"""A frame with more than this still to come gets memory of its own. Less is kept and
-put in front of the next read: small, so that a peer that sends byte by byte makes us
-copy little, and that a read of many small messages is not cut short for one of them."""
+"""A frame with more bytes than this still missing gets memory of its own. Otherwise its
+beginning is kept and put in front of the next read. This is small, so that little is copied
+for a peer that sends byte by byte."""
 
 _MANY = 1024
-"""Bytes from which on it is worth a look whether all frames in them are of one length."""
+"""The least number of bytes for which :func:`_uniform` is worth a try."""
 
 _FIRST_GUESS = 1 << 20
-"""Bytes reserved at first for a frame of its own, when no frame as large was seen yet."""
+"""Bytes allocated at first for a large frame, until a larger frame was seen."""
 
 _U32 = struct.Struct("<I")
 _unpack = _U32.unpack_from
@@ -60,10 +59,8 @@ class FrameSink(Protocol):
 
 
 def frame_parts(body: bytes | bytearray | memoryview, *, join: int) -> bytes | list[bytes]:
-    """``body`` with its length in front: in one piece if shorter than ``join`` bytes.
-
-    A long one is not copied to be prefixed. One that its owner can change is copied.
-    """
+    """Return ``body`` with its length in front, in one piece if it is shorter than ``join``
+    bytes. A longer one is in two pieces, and copied only if its owner can change it."""
     view = memoryview(body)
     prefix = _U32.pack(view.nbytes)
     if view.nbytes < join:
@@ -74,8 +71,8 @@ def frame_parts(body: bytes | bytearray | memoryview, *, join: int) -> bytes | l
 class FrameReceiver:
     """Cuts a stream of bytes into frames for one ``sink``.
 
-    ``scratch`` is the receive buffer; connections served by one loop may share one,
-    because between :meth:`buffer` and :meth:`received` nothing else runs.
+    ``scratch`` is the receive buffer. The connections of one event loop may share it,
+    because no other code runs between :meth:`buffer` and :meth:`received`.
     """
 
     __slots__ = (
@@ -115,12 +112,12 @@ class FrameReceiver:
         )
 
     def buffer(self) -> memoryview:
-        """Where the next bytes go."""
+        """Return the memory that the next bytes go into."""
         large = self._large
         if large is None:
             return self._scratch
         if self._filled == len(large):
-            # Not extended in place: who received into it last may still look at it.
+            # Not extended in place, because whoever wrote to it may still have a view of it.
             grown = bytearray(min(2 * len(large), self._wanted))
             grown[: self._filled] = large
             self._large = large = grown
@@ -130,17 +127,17 @@ class FrameReceiver:
         return self._view[self._filled :]
 
     def received(self, count: int) -> None:
-        """Take note of ``count`` bytes written to :meth:`buffer`.
+        """Process ``count`` bytes that were written to :meth:`buffer`.
 
-        Raises :class:`FrameError` for a frame beyond the limit; the frames before
-        it have been handed over by then, and the connection is of no more use.
+        Raises :class:`FrameError` for a frame beyond the limit. The frames before it have
+        been handed over by then, and the connection cannot be used any more.
         """
         self.bytes_received += count
         if self._large is None:
             data = bytes(self._scratch[:count])
             if self._tail or count < 4 or _unpack(data)[0] + 4 != count or count > self._max_bytes:
                 self._cut(data)
-            else:  # one message alone: what comes now and then comes like that
+            else:  # one whole message: the usual case at low rates
                 self.frames_received += 1
                 self._sink.frames([(self._sink.batch(data), 4, count)])
             return
@@ -154,8 +151,8 @@ class FrameReceiver:
             self._sink.frames([(self._sink.batch(whole), 0, self._wanted)])
 
     def block(self, data: bytes | memoryview) -> None:
-        """Take bytes that were received elsewhere, and will not change: without a copy,
-        where they are whole frames."""
+        """Take bytes that were received elsewhere and will not change. Complete frames are
+        not copied."""
         if self._large is None and isinstance(data, bytes):
             self.bytes_received += len(data)
             self._cut(data)
@@ -163,7 +160,7 @@ class FrameReceiver:
             self.feed(data)
 
     def feed(self, data: bytes | memoryview) -> None:
-        """Take bytes that were received elsewhere, behind the connection header."""
+        """Take bytes that were received elsewhere, and copy them."""
         while data:
             room = self.buffer()
             count = min(len(room), len(data))
@@ -201,12 +198,12 @@ class FrameReceiver:
             raise failure
 
     def _keep(self, data: bytes, start: int, length: int) -> None:
-        """Keep what came of a frame whose end has not come yet."""
+        """Keep the beginning of a frame whose end has not come yet."""
         have = len(data) - start
         if length - have <= DIRECT:
             self._tail = data[start - 4 :]
             return
-        # Not bytearray(length): that would be memory on the word of a peer.
+        # Not bytearray(length), which would let a peer decide how much memory is used.
         self._large = bytearray(min(length, max(self._largest, 2 * have)))
         self._large[:have] = memoryview(data)[start:]
         self._filled = have
@@ -214,12 +211,10 @@ class FrameReceiver:
 
 
 def _uniform(data: bytes, batch: Any, limit: int) -> tuple[list[tuple[Any, int, int]], int]:
-    """The frames at the beginning of ``data`` if all there have the same length; and how far
-    they go.
+    """Return the frames of ``data`` if all of them have the same length, and where they end.
 
-    The messages of a topic mostly have the same length. To compare the lengths of a whole
-    read at once, octet by octet, and to make the list without a loop takes 45 ns a frame;
-    the loop takes 90.
+    The messages of a topic mostly have the same length. Comparing all lengths at once, byte
+    by byte, and making the list without a loop takes 45 ns a frame; the loop takes 90.
     """
     prefix = data[:4]
     length = _unpack(prefix)[0]

@@ -1,4 +1,4 @@
-"""The handshakes of TCPROS: who says what before messages flow, for all four sides.
+"""The handshakes of TCPROS: the headers that all four sides exchange before messages.
 
 A connection starts with the connecting side sending a header; the accepting side
 answers with one, or with one that holds only ``error`` and closes. The classes here
@@ -9,8 +9,8 @@ take and give bytes and know nothing of sockets:
 * :class:`Server`: the accepting side of both, which learns from the header what is
   asked for and then accepts or refuses.
 
-Which fields are sent is what rospy and roscpp send, and what rosbag, topic_tools and
-MATLAB need; which are required is what rospy and roscpp require.
+The fields sent are those that rospy and roscpp send, and that rosbag, topic_tools and MATLAB
+need. The fields required are those that rospy and roscpp require.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class _Side(ABC):
         """What the other side is called in errors."""
         self._parser = HeaderParser(max_bytes=max_bytes, max_fields=max_fields)
         self.header: dict[str, str] = {}
-        """The header of the other side, once it is whole."""
+        """The header of the other side, once it is complete."""
 
     def __repr__(self) -> str:
         state = "has its header" if self.header else "waits for its header"
@@ -82,9 +82,9 @@ class _Side(ABC):
             raise HandshakeError(self.peer, str(error)) from error
 
     def receive_data(self, data: bytes) -> bool:
-        """Take bytes; True once the header of the other side is whole.
+        """Take bytes, and return True once the header of the other side is complete.
 
-        Empty ``data`` says that the other side closed. Raises
+        Empty ``data`` means that the other side closed the connection. Raises
         :class:`~aioros1.HandshakeError`.
         """
         if not data:
@@ -117,8 +117,8 @@ class _Client(_Side):
     def _request(self) -> dict[str, str]: ...
 
     def _check_md5sum(self, ours: str, what: str) -> None:
-        # rospy and roscpp take what comes, whatever its md5sum. They then decode it
-        # as something it is not.
+        # rospy and roscpp do not look at the md5sum here, and decode the messages as a type
+        # that they are not.
         theirs = self.header.get("md5sum")
         if theirs is not None and ours != theirs and "*" not in (ours, theirs):
             raise self._fail(
@@ -172,7 +172,7 @@ class TopicClient(_Client):
 
     @property
     def agreed(self) -> TopicOffer:
-        """What the publisher says it publishes."""
+        """What the publisher announced."""
         header = self.header
         return TopicOffer(
             topic=self.wanted.topic,
@@ -237,9 +237,9 @@ class ServiceClient(_Client):
 class Server(_Side):
     """The accepting side, of topics and services on one port.
 
-    Once :meth:`receive_data` returned True, :attr:`topic` or :attr:`service` names
-    what is asked for; then :meth:`accept_topic`, :meth:`accept_service` or
-    :meth:`refuse` gives the bytes to answer with.
+    Once :meth:`receive_data` has returned True, :attr:`topic` or :attr:`service` names what
+    the client asks for. :meth:`accept_topic`, :meth:`accept_service` and :meth:`refuse`
+    return the bytes to answer with.
     """
 
     def _wish(self) -> str:
@@ -285,11 +285,11 @@ class Server(_Side):
     def accept_topic(
         self, caller_id: str, offer: TopicOffer, extra: Mapping[str, str] | None = None
     ) -> bytes:
-        """The answer to a subscriber; ``extra`` fields never replace the standard ones.
+        """Accept a subscriber. ``extra`` fields never replace the standard ones.
 
-        Raises :class:`~aioros1.HandshakeError` when it expects another definition. A
-        type of another name with the same md5sum is accepted, as rospy and roscpp do:
-        packages that were renamed rely on it.
+        Raises :class:`~aioros1.HandshakeError` if it expects another definition. A type of
+        another name with the same md5sum is accepted, as by rospy and roscpp, because
+        renamed packages rely on it.
         """
         self._check_md5sum(f"topic {offer.topic}", offer.type, offer.md5sum)
         return encode_header(
@@ -305,9 +305,13 @@ class Server(_Side):
         )
 
     def accept_service(self, caller_id: str, offer: ServiceOffer) -> bytes:
-        """The answer to a service caller; raises as :meth:`accept_topic`."""
+        """Accept a service caller. Raises as :meth:`accept_topic` does."""
         self._check_md5sum(f"service {offer.service}", offer.type, offer.md5sum)
-        # rospy sends `service`, roscpp the two type names; both are understood by both.
+        if offer.md5sum == "*":
+            # A provider of any type is of the type that the caller wants: some look.
+            wanted = self.header.get("type", "*")
+            offer = ServiceOffer(offer.service, wanted, self.header["md5sum"])
+        # rospy sends `service`, roscpp the two type names; each understands both.
         return encode_header(
             {
                 "callerid": caller_id,
@@ -320,12 +324,12 @@ class Server(_Side):
         )
 
     def refuse(self, text: str) -> bytes:
-        """The answer that says why not; the connection is closed behind it."""
+        """Refuse the client and say why; close the connection after sending this."""
         return encode_header({"error": text})
 
     def _check_md5sum(self, what: str, type: str, md5sum: str) -> None:
         theirs = self.header["md5sum"]
-        if theirs not in ("*", md5sum):
+        if theirs != md5sum and "*" not in (theirs, md5sum):
             raise self._fail(
                 f"client {self.caller_id} wants {what} as {self.header.get('type', '?')} with "
                 f"md5sum {theirs}, but it is {type} with md5sum {md5sum} here"

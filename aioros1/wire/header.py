@@ -2,8 +2,8 @@
 
 On the wire a header is a 32-bit length and then its fields, each a 32-bit length
 and ``name=value``; all lengths are little-endian
-(https://wiki.ros.org/ROS/Connection%20Header). Values are bytes to ROS; here they
-are text, with whatever is not UTF-8 kept by ``surrogateescape``.
+(https://wiki.ros.org/ROS/Connection%20Header). ROS treats values as bytes. Here they
+are text; bytes that are not UTF-8 are kept by ``surrogateescape``.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class HeaderError(ValueError):
 
 
 def encode_header(fields: Mapping[str, str]) -> bytes:
-    """The whole header, its length first.
+    """Encode a header, with its length in front.
 
     Raises :class:`ValueError` for a name that is empty or holds ``=``, which the
     other side could not tell from the value.
@@ -38,10 +38,10 @@ def encode_header(fields: Mapping[str, str]) -> bytes:
 
 
 def decode_header(body: bytes, *, max_fields: int = 256) -> dict[str, str]:
-    """The fields of a header, given what follows its length.
+    """Decode the fields of a header, given the bytes after its length.
 
-    A name given twice keeps its last value; what follows the first ``=`` is the
-    value, further ``=`` included: both as rospy and roscpp read it.
+    If a name occurs twice, its last value counts. The value is everything after the first
+    ``=``. rospy and roscpp do the same.
     """
     fields: dict[str, str] = {}
     position, end = 0, len(body)
@@ -68,10 +68,10 @@ def decode_header(body: bytes, *, max_fields: int = 256) -> dict[str, str]:
 
 
 class HeaderParser:
-    """Takes bytes as they come and gives the header once it is whole.
+    """Takes bytes as they arrive, and returns the header once it is complete.
 
-    Nothing is kept beyond what was fed, and nothing is reserved on the word of a
-    length: a header that announces more than ``max_bytes`` is refused at once.
+    Memory grows with the bytes received, not with the length announced. A header that
+    announces more than ``max_bytes`` is refused at once.
     """
 
     __slots__ = ("_buffer", "_max_bytes", "_max_fields")
@@ -85,9 +85,9 @@ class HeaderParser:
         return f"<HeaderParser, {len(self._buffer)} bytes waiting>"
 
     def feed(self, data: bytes) -> dict[str, str] | None:
-        """Add ``data``; the fields, or None while bytes are missing.
+        """Add ``data``, and return the fields, or None while bytes are missing.
 
-        Raises :class:`HeaderError`. What came behind the header is in :attr:`rest`.
+        Raises :class:`HeaderError`. Bytes after the header are in :attr:`rest`.
         """
         self._buffer += data
         wanted = self.missing()
@@ -99,7 +99,7 @@ class HeaderParser:
         return decode_header(body, max_fields=self._max_fields)
 
     def missing(self) -> int:
-        """How many bytes are missing for sure: of the length first, then of the body."""
+        """Return how many bytes are certainly missing: first of the length, then of the body."""
         have = len(self._buffer)
         if have < 4:
             return 4 - have

@@ -1,7 +1,7 @@
-"""HTTP answers as XML-RPC servers give them, read without any I/O.
+"""Reads HTTP answers of XML-RPC servers, without any I/O.
 
 Servers of ROS 1 differ in how an answer ends: most announce its length, those in Node.js
-send it in chunks, and what speaks HTTP/1.0 may just close the connection. They differ in
+send it in chunks, and those of HTTP/1.0 may just close the connection. They differ in
 the case of field names, and some send an interim answer first. Whatever is not needed to
 find the body is skipped.
 """
@@ -13,12 +13,12 @@ import re
 __all__ = ["MAX_HEAD", "AnswerReader", "HttpError"]
 
 MAX_HEAD = 16 << 10
-"""Bytes of a head, of one line between chunks, and of the fields behind the last chunk.
+"""The most bytes of a head, of a line between chunks, and of the fields after the last chunk.
 The programs of ROS 1 send about 150."""
 
-# Lines end with CR LF, and from small hand-written servers with LF alone.
+# Lines end with CR LF; small hand-written servers send LF alone.
 _HEAD_END = re.compile(rb"\r?\n\r?\n")
-# A line that begins with white space goes on with the one before.
+# A line that begins with white space continues the one before.
 _LINE_END = re.compile(rb"\r?\n(?![ \t])")
 _BEGIN = b"HTTP/1."
 _STATUS = re.compile(rb"HTTP/1\.([0-9]) +([0-9]{3})(?: +(.*))?")
@@ -30,14 +30,14 @@ _HEAD, _BODY, _CHUNK_SIZE, _CHUNK_DATA, _CHUNK_END, _TRAILER, _END = range(7)
 
 
 class HttpError(ValueError):
-    """What came in is not an HTTP answer, or not one we accept."""
+    """The received bytes are not an HTTP answer, or not an acceptable one."""
 
 
 class AnswerReader:
-    """Takes the bytes of one answer as they come, and gives its status and its body.
+    """Takes the bytes of one answer as they arrive, and returns its status and its body.
 
-    One whose status is not 200 counts as complete when its head is, because nobody wants
-    its body. ``max_bytes`` bounds the body, before memory is used for it.
+    If the status is not 200, the answer is complete after its head, because its body is not
+    needed. ``max_bytes`` limits the body, before memory is used for it.
     """
 
     __slots__ = (
@@ -60,7 +60,7 @@ class AnswerReader:
         self._left = -1  # bytes of the body, the chunk or the trailer; -1 for no limit
         self._body = bytearray()
         self.has_begun = False
-        """Whether anything has come: the server has read the request."""
+        """Whether any byte has come, so that the server must have read the request."""
         self.status = 0
         """The status code; 0 before the head is complete."""
         self.reason = ""
@@ -76,7 +76,7 @@ class AnswerReader:
         return f"<AnswerReader: {what}, {state}>"
 
     def receive_data(self, data: bytes) -> bool:
-        """Take what came; whether the answer is complete. Raises :class:`HttpError`."""
+        """Take bytes; whether the answer is complete now. Raises :class:`HttpError`."""
         self.has_begun = True
         if self._rest:
             data = self._rest + data
@@ -91,7 +91,7 @@ class AnswerReader:
         return self._next == _END or self._take_chunks(data, position)
 
     def receive_eof(self) -> bool:
-        """The connection has ended; whether the answer is complete with that."""
+        """Note the end of the connection; whether that completes the answer."""
         if self._next == _BODY and self._left < 0:
             self._complete(bytes(self._body))
         return self._next == _END
@@ -99,7 +99,7 @@ class AnswerReader:
     # the head
 
     def _head(self, data: bytes) -> int:
-        """Where the body begins; the head may not be complete, and then this is 0."""
+        """Return where the body begins; 0 while the head is incomplete."""
         position = 0
         while True:
             if not data.startswith(_BEGIN[: len(data) - position], position):
@@ -117,7 +117,7 @@ class AnswerReader:
             self.status = int(code)
             if self.status >= 200 or self.status == 101:
                 break
-            # An interim answer; the real one is to come.
+            # An interim answer; the final one follows.
         self.reason = reason.decode("latin-1")
         if self.status != 200:
             self._next = _END
@@ -187,8 +187,8 @@ class AnswerReader:
                 position += len(piece)
                 self._next = _CHUNK_END
             end = data.find(b"\n", position)
-            # The same bound for a line that has come and for what there is of one, so that
-            # it makes no difference in which pieces it comes.
+            # Complete and incomplete lines have the same limit, so that it does not matter
+            # in which pieces a line arrives.
             line = _bounded(data[position : end if end >= 0 else len(data)], "line")
             if self._next == _TRAILER and len(line) > self._left:
                 raise HttpError(f"not an HTTP answer: a trailer of more than {MAX_HEAD} bytes")

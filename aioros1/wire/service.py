@@ -1,4 +1,4 @@
-"""What flows on a service connection behind the headers.
+"""The frames of a service connection, after the headers.
 
 A request is a frame. An answer is one byte, 1 for success and 0 for failure, and a
 frame: the response, or the text of the error
@@ -35,7 +35,10 @@ class ServiceFrameError(ValueError):
 
 
 def frame_length(prefix: bytes | bytearray, max_bytes: int) -> int:
-    """The length that the four bytes ``prefix`` announce; refuses more than ``max_bytes``."""
+    """Return the length in the four bytes ``prefix``.
+
+    Raises :class:`ServiceFrameError` if it is more than ``max_bytes``.
+    """
     (length,) = _U32.unpack(prefix)
     if length > max_bytes:
         raise ServiceFrameError(f"a frame of {length} bytes, more than {max_bytes}")
@@ -43,6 +46,6 @@ def frame_length(prefix: bytes | bytearray, max_bytes: int) -> int:
 
 
 def encode_failure(text: str) -> bytes:
-    """The answer that carries an error instead of a response."""
+    """Make the answer that carries an error instead of a response."""
     data = text.encode("utf-8", "surrogateescape")
     return FAILURE + _U32.pack(len(data)) + data

@@ -1,4 +1,4 @@
-"""XML-RPC documents to Python values and back, without any I/O.
+"""Converts XML-RPC documents to Python values and back, without any I/O.
 
 The value types, and how each is written:
 
@@ -48,14 +48,14 @@ __all__ = [
 ]
 
 MAX_DEPTH = 100
-"""Arrays and structs inside one another, unless the caller says otherwise."""
+"""How deeply arrays and structs may be nested, by default."""
 
 MAX_VALUES = 250_000
-"""Values in a document, unless the caller says otherwise."""
+"""How many values a document may have, by default."""
 
 
 class XmlRpcFault(Exception):
-    """The other side answered with a fault: ``code`` and ``text`` are its own."""
+    """The other side answered with a fault, which has a ``code`` and a ``text``."""
 
     def __init__(self, code: int, text: str) -> None:
         super().__init__(code, text)
@@ -70,13 +70,13 @@ class XmlRpcFault(Exception):
 
 _Write = Callable[[str], None]
 
-# Everything that needs attention in a string; most strings hold none of it.
+# Characters that cannot be written as they are. Most strings have none.
 _SPECIAL = re.compile("[\x00-\x08\x0b-\x1f&<>\ud800-\udfff\ufffe\uffff]")
 _ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def encode_call(method: str, params: Sequence[Any], *, max_depth: int = MAX_DEPTH) -> bytes:
-    """A ``<methodCall>`` document.
+    """Make a ``<methodCall>`` document.
 
     Raises :class:`TypeError` for a value of a type XML-RPC does not have,
     :class:`OverflowError` for an int of more than 32 bits and :class:`ValueError` for a
@@ -98,8 +98,8 @@ def encode_call(method: str, params: Sequence[Any], *, max_depth: int = MAX_DEPT
 
 
 def encode_response(value: Any, *, what: str = "result", max_depth: int = MAX_DEPTH) -> bytes:
-    """A ``<methodResponse>`` document that carries ``value``, which is called ``what`` in
-    errors; raises as `encode_call`."""
+    """Make a ``<methodResponse>`` document with ``value``, which errors call ``what``.
+    Raises as :func:`encode_call` does."""
     out = ["<?xml version='1.0'?><methodResponse><params><param>"]
     _encode_root(value, out.append, what, max_depth)
     out.append("</param></params></methodResponse>")
@@ -107,8 +107,8 @@ def encode_response(value: Any, *, what: str = "result", max_depth: int = MAX_DE
 
 
 def encode_fault(code: int, text: str) -> bytes:
-    """A ``<methodResponse>`` that says why there is no value. It never fails:
-    characters XML cannot carry become ``?``."""
+    """Make a ``<methodResponse>`` document with a fault. It never fails: characters that XML
+    cannot carry become ``?``."""
     out = ["<?xml version='1.0'?><methodResponse><fault>"]
     fault = {"faultCode": code, "faultString": carriable(text)}
     _encode_root(fault, out.append, "fault", MAX_DEPTH)
@@ -117,7 +117,7 @@ def encode_fault(code: int, text: str) -> bytes:
 
 
 class _UnencodableError(Exception):
-    """Carries what is wrong with a value up to where its whole place is known."""
+    """Carries an error of a value up to where its full path is known."""
 
     def __init__(self, kind: type[Exception], text: str) -> None:
         self.kind = kind
@@ -213,7 +213,7 @@ def _go_deeper(depth: int) -> None:
 
 
 def carriable(text: str) -> str:
-    """``text`` with ``?`` for each character that XML cannot carry."""
+    """Replace each character that XML cannot carry by ``?``."""
     return _ILLEGAL.sub("?", text)
 
 
@@ -225,7 +225,7 @@ def _escape(text: str) -> str:
         raise _UnencodableError(
             ValueError, f"XML cannot carry the character {bad[0]!r}: {brief(text)}"
         )
-    # A bare carriage return would be read as a line feed; as a reference it survives.
+    # XML parsers turn a bare carriage return into a line feed, but not a reference to one.
     return (
         text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
     )
@@ -254,9 +254,9 @@ _BASES = (str, int, float, list, tuple, dict, bytes, bytearray, datetime)
 def decode_call(
     data: bytes, *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
 ) -> tuple[str, tuple[Any, ...]]:
-    """The method and the parameters of a ``<methodCall>`` document.
+    """Read the method and the parameters of a ``<methodCall>`` document.
 
-    Raises :class:`XmlRpcError`, and nothing else, for whatever is not one.
+    Raises :class:`XmlRpcError`, and nothing else, for anything that is not one.
     """
     plain = read_plain(data, "methodCall", max_depth, max_values)
     if plain is not None and plain[0] is not None:
@@ -270,10 +270,10 @@ def decode_call(
 def decode_response(
     data: bytes, *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
 ) -> Any:
-    """The value in a ``<methodResponse>`` document.
+    """Read the value of a ``<methodResponse>`` document.
 
-    Raises :class:`XmlRpcFault` when it carries a fault, :class:`XmlRpcError` when it is
-    not such a document. An empty one is what a roscpp node answers to a request it
+    Raises :class:`XmlRpcFault` if it carries a fault, :class:`XmlRpcError` if it is not
+    such a document. An empty one is what a roscpp node answers to a request it
     cannot read.
     """
     plain = read_plain(data, "methodResponse", max_depth, max_values)

@@ -1,10 +1,10 @@
-"""Reading the XML-RPC documents of every day, without an XML parser.
+"""Reads simple XML-RPC documents, without an XML parser.
 
-Nearly all that a master and its nodes say to each other is short, ASCII, without character
-references, and holds scalars and lists. One regular expression tells such a document from
-others and another one takes it apart, in a quarter of the time that a parser needs, whose
-events are calls into Python. Whatever is not recognised is left to
-:mod:`~aioros1.wire.xmlrpc_reader`, and whatever is, it would read the same.
+Nearly all documents that a master and its nodes exchange are short and ASCII, without
+character references, and hold scalars and lists. One regular expression recognises such a
+document and another one splits it, in a quarter of the time that a parser needs, whose events
+are calls into Python. Other documents are left to :mod:`~aioros1.wire.xmlrpc_reader`, which
+would read these the same way.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from aioros1.wire.xmlrpc_scalars import SCALARS
 
 __all__ = ["read_plain"]
 
-# A bound to the memory for what the second expression finds.
+# Limits the memory for the matches of the second expression.
 _MAX_BYTES = 64 << 10
 
-# No document of that size has more values.
+# A document of that size cannot have more values.
 _MOST_VALUES = _MAX_BYTES // len("<value></value>")
 
-# Lists inside lists inside a parameter: as many as the slave API has.
+# Levels of lists inside a parameter: as many as the slave API has.
 _DEPTH = 2
 
 _KINDS = ("string", "int", "i4", "boolean", "double")
@@ -52,8 +52,8 @@ _PARTS = re.compile(rf"<({'|'.join(_TO_VALUE)})>([^<]*)</([a-z0-9]+)>|<(/?)array
 def read_plain(
     data: bytes, root: str, max_depth: int, max_values: int
 ) -> tuple[str | None, list[Any]] | None:
-    """The method and the parameters in ``<root>``; None for what only the general reader
-    can read, or refuse."""
+    """Read the method and the parameters in ``<root>``; None if the document needs the general
+    reader, which reads or refuses it."""
     if len(data) > _MAX_BYTES or max_depth < _DEPTH or max_values < _MOST_VALUES:
         return None
     if not data.isascii():

@@ -1,4 +1,4 @@
-"""Reading XML-RPC documents with expat: whatever may be in them, and whatever is wrong.
+"""Reads any XML-RPC document with expat, and says what is wrong with bad ones.
 
 Document type declarations are refused, nesting is bounded and read without recursion, and
 the number of values is bounded.
@@ -20,7 +20,7 @@ _PENDING: Any = object()
 
 
 def read_document(data: bytes, root: str, max_depth: int, max_values: int) -> Document:
-    """What is in ``<root>``. Raises :class:`XmlRpcError`."""
+    """Read what is in ``<root>``. Raises :class:`XmlRpcError`."""
     if not data:
         raise XmlRpcError("the document is empty")
     decoder = Document(root, max_depth, max_values)
@@ -40,8 +40,8 @@ def read_document(data: bytes, root: str, max_depth: int, max_values: int) -> Do
     return decoder
 
 
-# A tag is read as a whole, and its attributes take 25 times their size in memory. So nothing
-# longer is waited for; expat may have looked for the end of a shorter one at every doubling.
+# expat reads a tag as a whole, and its attributes take 25 times their size in memory, so a
+# longer tag is refused. (expat looks for the end of a tag each time the data has doubled.)
 _PIECE = 64 << 10
 _LONGEST_TAG = 256 << 10
 
@@ -59,8 +59,8 @@ def _refuse_doctype(*_: object) -> NoReturn:
     raise XmlRpcError("document type declarations are refused")
 
 
-# Those that expat knows. For any other it would ask Python, which imports a module by that
-# name, and never forgets a name that somebody came up with.
+# The encodings built into expat. For others it asks Python, which imports a module of that
+# name and remembers each name forever, including those that a peer invented.
 _ENCODINGS = frozenset({"utf-8", "utf-16", "utf-16be", "utf-16le", "iso-8859-1", "us-ascii"})
 
 
@@ -86,7 +86,7 @@ _NOTHING: frozenset[str] = frozenset()
 
 
 class Document:
-    """Takes expat's events and builds values, with stacks of its own for the nesting."""
+    """Builds values from expat's events. Stacks, and no recursion, follow the nesting."""
 
     def __init__(self, root: str, max_depth: int, max_values: int) -> None:
         self.method: str | None = None

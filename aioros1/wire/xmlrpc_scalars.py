@@ -1,4 +1,4 @@
-"""What both readers of XML-RPC documents have in common: scalars, and the error."""
+"""What both readers of XML-RPC documents share: scalars, and the error."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ __all__ = ["BLANK", "INT_MAX", "INT_MIN", "SCALARS", "XmlRpcError", "brief"]
 INT_MIN, INT_MAX = -(1 << 31), (1 << 31) - 1
 
 BLANK = " \t\r\n"
-"""White space, as XML has it."""
+"""White space in XML."""
 
 
 @public("aioros1.wire.xmlrpc")
 class XmlRpcError(ValueError):
-    """What came in is not an XML-RPC document, or not one we accept."""
+    """The received bytes are not an XML-RPC document, or not an acceptable one."""
 
 
 def brief(value: object) -> str:
@@ -44,7 +44,7 @@ def _to_int(text: str) -> int:
 
 
 def _to_long(text: str) -> NoReturn:
-    # Python's own servers store an i8 and can never hand it out again.
+    # Python's own servers accept an i8, but can never send it back.
     raise ValueError(f"64-bit ints are not part of XML-RPC: {brief(text)}")
 
 
@@ -98,4 +98,4 @@ SCALARS: dict[str, Callable[[str], Any]] = {
     "dateTime.iso8601": _to_datetime,
     "nil": _to_nil,
 }
-"""From an element's text to its value, by the element. Each raises :class:`ValueError`."""
+"""The function for each element that converts its text. All raise :class:`ValueError`."""

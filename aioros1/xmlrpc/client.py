@@ -1,25 +1,31 @@
-"""An XML-RPC client for masters and nodes, on kept connections.
+"""Calling masters and nodes: an XML-RPC client, and the answers ``[code, status, value]``.
 
-What the servers of ROS 1 demand of a client: a Content-Length, never a chunked body; a
-path, ``/RPC2`` when the URI has none; and patience with answers that are no XML-RPC.
+The servers of ROS 1 need a Content-Length and no chunked body, and the path ``/RPC2`` if the
+URI has none. Some of their answers are not XML-RPC.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from asyncio import _get_running_loop
+from collections.abc import Callable
+from typing import Any, TypeVar
 
+from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerError, PeerUnreachable
 from aioros1.net.http_client import HttpClient, server_at
+from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
 from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
-from aioros1.wire.xmlrpc import XmlRpcError, decode_response, encode_call
+from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault, decode_response, encode_call
 
-__all__ = ["XmlRpcClient"]
+__all__ = ["XmlRpcClient", "as_it_is", "call_triple"]
+
+T = TypeVar("T")
 
 
 class XmlRpcClient:
-    """Calls methods of XML-RPC servers. Made without a loop; connects when it is used."""
+    """Calls methods of XML-RPC servers. You can create it outside an event loop."""
 
     def __init__(self, *, timeouts: Timeouts | None = None, limits: Limits | None = None) -> None:
         self._timeouts = timeouts if timeouts is not None else Timeouts()
@@ -27,25 +33,31 @@ class XmlRpcClient:
         self._http = HttpClient(max_bytes=self._limits.xmlrpc_bytes)
         self._deadlines = Deadlines()  # of the calls in progress
         self._closed = False
+        self._loop_state: LoopState | None = None  # of the loop of the first call
 
     async def call(self, uri: str, method: str, *params: Any, timeout: float | None = None) -> Any:
-        """The answer of ``method(*params)`` at ``uri``, whatever it is.
+        """Call ``method(*params)`` at ``uri`` and return the answer, whatever it is.
 
-        ``timeout`` is for the whole call, in seconds; ``Timeouts.xmlrpc`` by default, and
-        infinite for none. Raises
+        ``timeout`` limits the whole call, in seconds; the default is ``Timeouts.xmlrpc``,
+        and ``math.inf`` means no limit. Raises
 
-        - :class:`TimeoutError` when it is over,
-        - :class:`ConnectionError` when nobody can be reached at ``uri``, and
-          :class:`ConnectionResetError` when the connection is lost before the answer,
-        - :class:`.XmlRpcFault` when the server answers with a fault,
-        - :class:`.XmlRpcError` when what it answers is not XML-RPC, or too much,
+        - :class:`TimeoutError` after that time,
+        - :class:`ConnectionError` if the server cannot be reached, and
+          :class:`ConnectionResetError` if the connection is lost before the answer,
+        - :class:`.XmlRpcFault` if the server answers with a fault,
+        - :class:`.XmlRpcError` if the answer is not XML-RPC, or too large,
         - :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for parameters
           that cannot be sent (see :func:`.encode_call`), before anything is sent,
-        - :class:`RuntimeError` after :meth:`close`.
+        - :class:`~aioros1.ClosedError` after :meth:`close`,
+        - :class:`RuntimeError` in another thread than the first call.
         """
         body = encode_call(method, params, max_depth=self._limits.xmlrpc_depth)
         if self._closed:
-            raise RuntimeError("the XML-RPC client is closed")
+            raise ClosedError("the XML-RPC client is closed")
+        if self._loop_state is None:
+            self._loop_state = loop_state()
+        if _get_running_loop() is not self._loop_state.loop:
+            self._loop_state.check_thread(method)
         try:
             server = server_at(uri)
         except ValueError:
@@ -74,7 +86,7 @@ class XmlRpcClient:
             raise XmlRpcError(f"{method} at {uri}: {error}") from None
 
     def close_idle(self) -> None:
-        """Keep no connection that is there now: all of them may be dead."""
+        """Close the connections that are idle now, because they may all be dead."""
         self._http.close_idle()
 
     async def close(self) -> None:
@@ -83,3 +95,55 @@ class XmlRpcClient:
         self._deadlines.expire()
         await self._deadlines.wait_ended()
         await self._http.close()
+
+
+def as_it_is(value: Any) -> Any:
+    """What reads an answer that nothing is to be made of."""
+    return value
+
+
+async def call_triple(
+    client: XmlRpcClient,
+    uri: str,
+    method: str,
+    params: tuple[Any, ...],
+    refused: type[MasterError] | type[PeerError],
+    unreachable: type[MasterUnreachable] | type[PeerUnreachable],
+    *,
+    bare: bool = False,
+    read: Callable[[Any], T] = as_it_is,
+    timeout: float | None = None,
+) -> T:
+    """Call a method and return what ``read`` makes of the value of its answer.
+
+    Raises ``refused`` for any code but 1, for a fault and for an answer that is not a
+    triple or that ``read`` cannot read; ``unreachable`` when there is no answer. With
+    ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so.
+    """
+    try:
+        answer = await client.call(uri, method, *params, timeout=timeout)
+    except XmlRpcFault as fault:
+        what = f"{method} at {uri}: {fault.text}"
+        raise refused(fault.code, what, is_refusal=False) from fault
+    except XmlRpcError as error:
+        whose = "master" if refused is MasterError else "node"
+        what = f"{error}; expected the answer of a ROS {whose}"
+        raise refused(-1, what, is_refusal=False) from error
+    except (OSError, TimeoutError) as error:
+        raise unreachable(str(error)) from error
+    except ClosedError as error:  # the client is closed, and with it its node
+        raise ClosedError(f"{method} at {uri}: {error}") from error
+    if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
+        code, status, value = answer
+        if code != 1:
+            raise refused(code, f"{method} at {uri}: {status}")
+    elif bare:
+        value = answer
+    else:
+        what = f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}"
+        raise refused(-1, what, is_refusal=False)
+    try:
+        return read(value)
+    except (TypeError, ValueError, LookupError, AttributeError) as error:
+        what = f"{method} at {uri}: cannot read {value!r:.200}: {error}"
+        raise refused(-1, what, is_refusal=False) from error

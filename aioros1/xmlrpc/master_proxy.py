@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from aioros1._public import public
 from aioros1.errors import MasterError, MasterUnreachable
-from aioros1.xmlrpc.answers import as_it_is, call_triple
-
-if TYPE_CHECKING:
-    from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.client import XmlRpcClient, as_it_is, call_triple
 
 __all__ = ["MasterProxy", "SystemState", "TopicType", "topic_types"]
 

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar
 
 from aioros1._public import public
 from aioros1.errors import PeerError, PeerUnreachable
-from aioros1.xmlrpc.answers import as_it_is, call_triple
+from aioros1.xmlrpc.client import XmlRpcClient, as_it_is, call_triple
 from aioros1.xmlrpc.master_proxy import TopicType, topic_types
-
-if TYPE_CHECKING:
-    from aioros1.xmlrpc.client import XmlRpcClient
 
 __all__ = [
     "BusInfo",

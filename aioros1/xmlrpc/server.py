@@ -1,12 +1,13 @@
 """An XML-RPC server: the slave API of a node, and the master.
 
-HTTP is aiohttp's low-level server. Its long-lived connections matter: rospy, rosmaster
-and our own client keep a connection per peer and send request after request over it.
+It runs on aiohttp's low-level HTTP server. Keep-alive matters: rospy, rosmaster and our own
+client send one request after the other over the same connection.
 """
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import inspect
 import logging
 import zlib
@@ -21,6 +22,7 @@ from aioros1.net.allow import AllowList
 from aioros1.net.hosts import bind_sockets
 from aioros1.net.rate_limit import RateLimit
 from aioros1.options import Limits
+from aioros1.waiting import Waiters
 from aioros1.wire.xmlrpc import (
     XmlRpcError,
     XmlRpcFault,
@@ -33,16 +35,19 @@ from aioros1.xmlrpc.server_http import Answer, Connection, Quiet, plain
 __all__ = ["Method", "Reply", "XmlRpcServer"]
 
 Method = Callable[..., Any]
-"""Takes the parameters of the request; returns the value to answer, a :class:`Reply`, or
-an awaitable of either."""
+"""Called with the parameters of a request; returns the value to answer with, a
+:class:`Reply`, or an awaitable of either."""
 
 KEEP_ALIVE = 3600.0
 """Seconds before an idle connection is closed.
 
-Long, because a client that sends just as we close sees its connection reset and cannot
-know whether the request was obeyed; the servers of ROS 1 never close first. Not endless,
-because of peers that vanish without a word.
+This is long, because a client that sends a request just when the server closes gets a reset
+and cannot know whether the request was executed; the servers of ROS 1 never close first. It
+is not infinite, because peers can vanish without closing.
 """
+
+CLOSING = 5.0
+"""Seconds in which event loops must have told the end of connections that were aborted."""
 
 # The codes of faults are those of the "Specification for Fault Code Interoperability".
 FAULT_PARSE = -32700
@@ -57,10 +62,8 @@ _YIELD_EVERY = 32
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """An answer with a consequence: ``after`` is called once ``value`` has been sent.
-
-    It is called even if the client has gone meanwhile. It is a plain function.
-    """
+    """An answer with a consequence: ``after``, a plain function, is called once ``value``
+    has been sent, or when the client turns out to be gone."""
 
     value: Any
     after: Callable[[], object]
@@ -69,9 +72,9 @@ class Reply:
 class XmlRpcServer:
     """Serves ``methods`` by name, and ``system.multicall`` over them.
 
-    A method is looked up in the mapping and nowhere else. A request with the wrong number
-    of parameters is answered as the programs of ROS 1 do, with ``[-1, text, 0]``; what
-    a method raises becomes a fault, is logged, and the server goes on.
+    Only methods of the mapping can be called. A request with the wrong number of parameters
+    is answered with ``[-1, text, 0]``, as by the programs of ROS 1. An exception that a
+    method raises is logged and answered with a fault.
     """
 
     def __init__(
@@ -96,10 +99,11 @@ class XmlRpcServer:
         if limits.requests_per_second is not None:
             self._rate = RateLimit(limits.requests_per_second, limits.requests_burst)
         self.delayed = 0
-        """Requests that had to wait, because their host had sent too many."""
+        """Requests that had to wait so far, because their host had sent too many."""
         self._http: web.Server | None = None
         self._listeners: list[asyncio.Server] = []
         self._connections: set[Connection] = set()
+        self._connection_ended = Waiters()
         # The requests in progress, and the connections that have had one.
         self._running: set[asyncio.Task[Any]] = set()
         self._serving: set[asyncio.Task[Any]] = set()
@@ -115,7 +119,7 @@ class XmlRpcServer:
     async def start(self, host: str = "0.0.0.0", port: int = 0) -> None:
         """Listen on the numeric address ``host``; see :func:`.hosts.bind_sockets`.
 
-        Raises :class:`OSError` when the address or the port is not to be had.
+        Raises :class:`OSError` if the address or the port is not available.
         """
         if self._http is not None:
             raise RuntimeError("the server was started before")
@@ -129,6 +133,7 @@ class XmlRpcServer:
         def connection() -> Connection:
             return Connection(
                 self._connections,
+                self._connection_ended,
                 self.admission,
                 http,
                 loop=loop,
@@ -141,8 +146,8 @@ class XmlRpcServer:
 
         try:
             for sock in sockets:
-                # Not in one with serving, during which asyncio lets others run: if that is
-                # cancelled, nobody has the server and could close it.
+                # Not in one step with serving, which lets other tasks run: if this one was
+                # cancelled then, nobody would have the server to close it.
                 listener = await loop.create_server(
                     connection, sock=sock, backlog=512, start_serving=False
                 )
@@ -155,8 +160,8 @@ class XmlRpcServer:
             raise
 
     async def close(self, *, timeout: float = 1.0) -> None:
-        """Stop listening, let requests in progress finish for ``timeout`` seconds, close
-        every connection. Not to be called from a method: it would wait for itself."""
+        """Stop listening, give requests in progress ``timeout`` seconds to finish, and close
+        every connection. A method must not call this, because it would wait for itself."""
         if asyncio.current_task() in self._running:
             raise RuntimeError("a method cannot close its own server: use Reply(after=...)")
         listeners, self._listeners = self._listeners, []
@@ -168,9 +173,9 @@ class XmlRpcServer:
         if self._sweeper is not None:
             self._sweeper.cancel()
         http.pre_shutdown()
-        # aiohttp loses sight of the tasks of a connection whose peer has gone, and would
-        # leave them behind; so they are ended here.
-        await _cancel(self._waiting)  # these have not begun
+        # aiohttp loses track of the tasks of a connection whose peer has gone, so they are
+        # ended here.
+        await _cancel(self._waiting)  # their requests have not begun
         if self._running:
             await asyncio.wait(self._running, timeout=timeout)
         await _cancel(self._running)
@@ -178,15 +183,14 @@ class XmlRpcServer:
         for connection in list(self._connections):
             connection.abort()
         await _cancel(self._serving)
-        # A transport tells its protocol of the end in a later turn of the loop.
-        for _ in range(100):
-            if not self._connections:
-                break
-            await asyncio.sleep(0)
-        await asyncio.sleep(0)
+        # A transport tells its protocol of the end in a later iteration of the loop.
+        with contextlib.suppress(TimeoutError):
+            await self._connection_ended.wait_until(
+                lambda: not self._connections, timeout=CLOSING, what="connections did not close"
+            )
 
     def _sweep(self) -> None:
-        """Close what has waited too long for the head of a request; one timer for all."""
+        """Close connections whose request head is late. One timer serves them all."""
         loop = asyncio.get_running_loop()
         patience = self._limits.xmlrpc_timeout
         for connection in list(self._connections):
@@ -231,11 +235,11 @@ class XmlRpcServer:
     async def _take_turn(
         self, rate: RateLimit, connection: Connection, task: asyncio.Task[Any]
     ) -> None:
-        """Wait if the host has sent too many requests. Nothing more is read from the
-        connection then than fits into its buffers.
+        """Wait if the host has sent too many requests. Meanwhile no more is read from the
+        connection than fits into its buffers.
 
-        Raises :class:`ConnectionResetError` when the peer does not wait for the answer: a
-        host has no more requests waiting here than it has connections.
+        Raises :class:`ConnectionResetError` if the peer closes the connection, so that a host
+        never has more requests waiting than connections.
         """
         host = connection.host
         assert host is not None
@@ -258,8 +262,8 @@ class XmlRpcServer:
         if request.method != "POST":
             return plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
         if "Origin" in headers:
-            # Of a web page in somebody's browser, wherever that came from. It could not read
-            # the answer, but need not, to end a node.
+            # From a web page in somebody's browser. The page could not read the answer, but
+            # it would not have to in order to shut a node down.
             return plain(403, "XML-RPC is not for web pages", close=True)
         if "Transfer-Encoding" in headers:
             return None
@@ -274,7 +278,7 @@ class XmlRpcServer:
         return plain(413, f"more than {self._limits.xmlrpc_bytes} bytes", close=True)
 
     async def _read(self, request: web.BaseRequest) -> bytes | web.Response:
-        """The body, inflated if need be; or the answer that refuses it."""
+        """Return the body, decompressed if needed, or the answer that refuses it."""
         if request.headers.get("Expect", "").lower() == "100-continue":
             await request.writer.write(b"HTTP/1.1 100 Continue\r\n\r\n")
             request.writer.output_size = 0
@@ -288,7 +292,7 @@ class XmlRpcServer:
         while chunk := await content.readany():
             if inflate is not None:
                 try:
-                    chunk = inflate.decompress(chunk, room + 1)  # bounds a bomb of zeros
+                    chunk = inflate.decompress(chunk, room + 1)  # no more, whatever it expands to
                 except zlib.error as error:
                     return plain(400, f"not gzip: {error}", close=True)
             room -= len(chunk)
@@ -347,7 +351,7 @@ class XmlRpcServer:
     async def _call(
         self, name: str, params: tuple[Any, ...], afters: list[Callable[[], object]]
     ) -> Any:
-        """What the method returned; raises :class:`XmlRpcFault` and nothing else."""
+        """Return what the method returned. Raises only :class:`XmlRpcFault`."""
         entry = self._methods.get(name)
         if entry is None:
             raise XmlRpcFault(FAULT_NO_METHOD, f'method "{name}" is not supported')
@@ -407,7 +411,7 @@ def _multicall_entry(call: Any) -> tuple[str, tuple[Any, ...]]:
 
 
 def _arity(method: Method) -> tuple[int, float]:
-    """The least and the greatest number of positional arguments ``method`` takes."""
+    """Return the least and the greatest number of positional arguments of ``method``."""
     least, most = 0, 0.0
     for parameter in inspect.signature(method).parameters.values():
         if parameter.kind is parameter.VAR_POSITIONAL:

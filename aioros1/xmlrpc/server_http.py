@@ -1,8 +1,8 @@
-"""What the XML-RPC server needs of HTTP beyond aiohttp's low-level server.
+"""What the XML-RPC server needs beyond aiohttp's low-level HTTP server.
 
-That is a limit to how long the head of a request may take, and answers that cost less: a
-master answers thousands of small requests a second, and of the 107 µs that one took, 35
-went into a general HTTP response and into timers that hardly ever run out.
+It needs a limit on how long the head of a request may take, and cheaper answers: a master
+answers thousands of small requests a second, and of the 107 µs for each, 35 went into a
+general HTTP response and into timers that hardly ever expire.
 """
 
 from __future__ import annotations
@@ -19,19 +19,20 @@ if TYPE_CHECKING:
     from aiohttp.typedefs import LooseHeaders
 
     from aioros1.net.admission import Admission
+    from aioros1.waiting import Waiters
 
 __all__ = ["Answer", "Connection", "Quiet", "plain"]
 
-# What a transport may hold without making the writer wait, be it one answer or many.
+# Bytes that a transport may buffer, of one answer or of many, before the writer waits.
 _SMALL = 48 << 10
 
 
 class Answer(web.StreamResponse):
     """A ``200 OK`` with an XML document, written at once and by hand.
 
-    ``patience`` is how many seconds the peer may take to read it; aiohttp would wait for
-    ever for one that asks for megabytes, or again and again, and then reads nothing. With
-    ``flush`` the answer is sent when :meth:`prepare` returns: the kernel has every byte.
+    ``patience`` is how many seconds the peer may take to read it; aiohttp would wait forever
+    for a peer that requests megabytes and reads nothing. With ``flush``, the kernel has every
+    byte of the answer when :meth:`prepare` returns.
     """
 
     def __init__(self, document: bytes, *, patience: float, flush: bool = False) -> None:
@@ -64,7 +65,7 @@ class Answer(web.StreamResponse):
             try:
                 async with asyncio.timeout(self._patience):
                     if self._flush:
-                        # Now a drain returns when the kernel has taken every byte.
+                        # From now on drain() waits until the kernel has taken every byte.
                         transport.set_write_buffer_limits(high=0)
                     await request.writer.drain()
             except TimeoutError:
@@ -79,7 +80,7 @@ class Answer(web.StreamResponse):
 def plain(
     status: int, text: str, headers: LooseHeaders | None = None, *, close: bool = False
 ) -> web.Response:
-    """An answer that refuses a request, in one line of text."""
+    """Make an answer that refuses a request, in one line of text."""
     response = web.Response(status=status, text=text + "\n", headers=headers)
     if close:
         response.force_close()
@@ -87,27 +88,30 @@ def plain(
 
 
 class Connection(web.RequestHandler):
-    """aiohttp's connection, which knows since when it waits for the rest of a head.
+    """aiohttp's connection, which also limits how long the head of a request may take.
 
-    aiohttp itself waits as long for the rest of a request line as for the next request.
-    ``connections`` holds those that are open. One that ``admission`` turns away is none,
-    and is closed before anything is read of it.
+    aiohttp waits for the rest of a request line as long as for the next request.
+    ``connections`` holds those that are open, and ``ended`` wakes whoever waits for the end
+    of one. A connection that ``admission`` refuses is not among them, and is closed before
+    anything is read from it.
     """
 
-    __slots__ = ("_admission", "_busy", "_connections", "_gone", "_waits_since", "host")
+    __slots__ = ("_admission", "_busy", "_connections", "_ended", "_gone", "_waits_since", "host")
 
     def __init__(
         self,
         connections: set[Connection],
+        ended: Waiters,
         admission: Admission,
         manager: web.Server,
         **options: Any,
     ) -> None:
         super().__init__(manager, **options)
         self._connections = connections
+        self._ended = ended
         self._admission = admission
         self.host: str | None = None
-        """Where it comes from; ``None`` before it is let in."""
+        """The host it comes from; ``None`` before it is admitted."""
         self._gone: asyncio.Future[bool] | None = None
         self._busy = False
         self._waits_since: float | None = None
@@ -125,6 +129,7 @@ class Connection(web.RequestHandler):
             return
         super().connection_lost(exc)
         self._connections.discard(self)
+        self._ended.wake()
         self._admission.leave(self.host)
         if self._gone is not None and not self._gone.done():
             self._gone.set_result(True)
@@ -144,7 +149,7 @@ class Connection(web.RequestHandler):
         self._busy = False
 
     async def is_gone_after(self, seconds: float) -> bool:
-        """Wait; whether the peer has gone meanwhile, which ends the waiting."""
+        """Wait ``seconds``, or until the peer has gone; whether it has."""
         if self.transport is None:
             return True
         gone: asyncio.Future[bool] = self._loop.create_future()
@@ -157,7 +162,7 @@ class Connection(web.RequestHandler):
             self._gone = None
 
     def close_if_late(self, deadline: float) -> None:
-        """Refuse a head that began before ``deadline`` and is not complete yet."""
+        """Close the connection if a head that began before ``deadline`` is still incomplete."""
         if self._waits_since is None or self._waits_since > deadline:
             return
         self._waits_since = None
@@ -168,7 +173,7 @@ class Connection(web.RequestHandler):
         self.force_close()
 
     def abort(self) -> None:
-        """Close at once; what was not sent yet is lost."""
+        """Close at once; what was not sent is lost."""
         if self.transport is not None:
             self.transport.abort()
 
@@ -179,7 +184,7 @@ def _settle(future: asyncio.Future[bool]) -> None:
 
 
 class Quiet(logging.LoggerAdapter[Any]):
-    """What aiohttp calls an exception is a peer that sent nonsense or went away."""
+    """Logs what aiohttp calls exceptions for debugging only: peers that sent garbage or went."""
 
     def __init__(self, log: logging.Logger | logging.LoggerAdapter[Any]) -> None:
         super().__init__(log, {})

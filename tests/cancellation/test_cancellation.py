@@ -133,7 +133,7 @@ async def call(world: World) -> None:
 
 async def persistent_still_works(world: World, attempt: Attempt) -> None:
     for data in (False, True):
-        assert (await world.caller.call(data=data, timeout=5)).success is data
+        assert (await world.caller.call(data=data, timeout=30)).success is data
 
 
 @case("caller.call, persistent", after=persistent_still_works)
@@ -144,7 +144,7 @@ async def call_persistent(world: World) -> None:
 
 @case("caller.call, persistent, with a time limit", after=persistent_still_works)
 async def call_in_time(world: World) -> None:
-    assert (await world.caller.call(data=True, timeout=5)).success
+    assert (await world.caller.call(data=True, timeout=30)).success
 
 
 @case("caller.call, two at a time", after=persistent_still_works)
@@ -167,7 +167,7 @@ async def single(world: World) -> AsyncIterator[None]:
 
 @case("caller.call", around=single)
 async def call_once(world: World) -> None:
-    assert (await world.thing.call(data=True, timeout=5)).success
+    assert (await world.thing.call(data=True, timeout=30)).success
 
 
 @case("caller()", around=single)
@@ -182,12 +182,12 @@ async def is_available(world: World) -> None:
 
 @case("caller.wait_for_service", around=single)
 async def caller_waits(world: World) -> None:
-    await world.thing.wait_for_service(timeout=5)
+    await world.thing.wait_for_service(timeout=30)
 
 
 @case("node.wait_for_service")
 async def wait_for_service(world: World) -> None:
-    await world.node.wait_for_service("flip", timeout=5)
+    await world.node.wait_for_service("flip", timeout=30)
 
 
 @contextlib.asynccontextmanager
@@ -204,7 +204,7 @@ async def answer_what_waits(world: World, attempt: Attempt) -> None:
 
 
 async def call_later(world: World) -> None:
-    world.calling = asyncio.create_task(world.other.call("later", SetBool, timeout=5))
+    world.calling = asyncio.create_task(world.other.call("later", SetBool, timeout=30))
 
 
 @case("anext(provider)", around=deferring, before=call_later, after=answer_what_waits)
@@ -244,7 +244,7 @@ async def publish_soon(world: World) -> None:
 
 def takes_one() -> Any:
     async def nothing_is_lost(world: World, attempt: Attempt) -> None:
-        taken = attempt.result if attempt.is_done else await world.sub.get(timeout=5)
+        taken = attempt.result if attempt.is_done else await world.sub.get(timeout=30)
         assert getattr(taken, "message", taken).data == world.number
         assert world.sub.queued == 0
 
@@ -258,7 +258,7 @@ def get(world: World) -> Any:
 
 @case("sub.get, with a time limit", **takes_one())
 def get_in_time(world: World) -> Any:
-    return world.sub.get(timeout=5)
+    return world.sub.get(timeout=30)
 
 
 @case("anext(sub)", **takes_one())
@@ -280,7 +280,7 @@ async def latched(world: World) -> AsyncIterator[None]:
 
 @case("node.wait_for_message", around=latched)
 async def wait_for_message(world: World) -> None:
-    assert (await world.node.wait_for_message("latched", timeout=5)).data == "there"
+    assert (await world.node.wait_for_message("latched", timeout=30)).data == "there"
 
 
 @contextlib.asynccontextmanager
@@ -312,12 +312,12 @@ async def leave(world: World, attempt: Attempt) -> None:
 
 @case("pub.wait_for_subscribers", around=lonely, before=join, after=leave)
 def wait_for_subscribers(world: World) -> Any:
-    return world.thing.wait_for_subscribers(timeout=5)
+    return world.thing.wait_for_subscribers(timeout=30)
 
 
 @case("sub.wait_for_publishers", around=lonely, before=join, after=leave)
 def wait_for_publishers(world: World) -> Any:
-    return world.lone.wait_for_publishers(timeout=5)
+    return world.lone.wait_for_publishers(timeout=30)
 
 
 @contextlib.asynccontextmanager
@@ -328,7 +328,7 @@ async def pressure(world: World) -> AsyncIterator[None]:
         world.other.subscribe("big", String, queue_size=1, overflow="block") as world.taker,
     ):
         world.thing = pub
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         yield
 
 
@@ -342,7 +342,7 @@ async def fill(world: World) -> None:
     async def take() -> list[int]:
         taken = []
         while len(taken) < len(world.sent):
-            taken.append(int((await world.taker.get(timeout=5)).data[:6]))
+            taken.append(int((await world.taker.get(timeout=30)).data[:6]))
         return taken
 
     world.taking = asyncio.create_task(take())
@@ -352,9 +352,9 @@ async def what_was_sent_came(world: World, attempt: Attempt) -> None:
     """What a cancelled ``send`` was to send was not published."""
     assert await world.taking == world.sent
     if attempt.is_done:
-        assert (await world.taker.get(timeout=5)).data.startswith("000999")
+        assert (await world.taker.get(timeout=30)).data.startswith("000999")
     await world.thing.send(data="001000")
-    assert (await world.taker.get(timeout=5)).data == "001000"
+    assert (await world.taker.get(timeout=30)).data == "001000"
 
 
 @case("pub.send, when there is no room", around=pressure, before=fill, after=what_was_sent_came)
@@ -368,14 +368,14 @@ async def all_came(world: World, attempt: Attempt) -> None:
 
 @case("pub.drain", around=pressure, before=fill, after=all_came)
 def drain(world: World) -> Any:
-    return world.thing.drain(timeout=5)
+    return world.thing.drain(timeout=30)
 
 
 async def not_twice(world: World, attempt: Attempt) -> None:
     expected = [world.number] if attempt.is_done else []
     await world.pub.send(data="last")
     got = []
-    while (data := (await world.their_sub.get(timeout=5)).data) != "last":
+    while (data := (await world.their_sub.get(timeout=30)).data) != "last":
         got.append(data)
     assert got == expected
 
@@ -478,7 +478,7 @@ async def update_is_not_taken(world: World, attempt: Attempt) -> None:
 
 @case("psub.wait_for", before=change_soon, after=update_is_not_taken)
 def param_wait_for(world: World) -> Any:
-    return world.psub.wait_for(lambda value: value == world.value, timeout=5)
+    return world.psub.wait_for(lambda value: value == world.value, timeout=30)
 
 
 # ------------------------------------------------------------------ time, graph, other nodes
@@ -537,7 +537,7 @@ def snapshot(world: World) -> Any:
 
 @case("graph.wait_for")
 def graph_wait_for(world: World) -> Any:
-    return world.node.graph.wait_for(lambda graph: "/in" in graph.topics, timeout=5)
+    return world.node.graph.wait_for(lambda graph: "/in" in graph.topics, timeout=30)
 
 
 @contextlib.asynccontextmanager
@@ -565,12 +565,12 @@ def next_node_event(world: World) -> Any:
 
 @case("node.wait_for_master")
 def wait_for_master(world: World) -> Any:
-    return world.node.wait_for_master(timeout=5)
+    return world.node.wait_for_master(timeout=30)
 
 
 @case("aioros1.wait_for_master")
 def wait_for_any_master(world: World) -> Any:
-    return aioros1.wait_for_master(world.master.uri, timeout=5)
+    return aioros1.wait_for_master(world.master.uri, timeout=30)
 
 
 @case("node.peer")

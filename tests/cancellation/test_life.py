@@ -16,7 +16,7 @@ from .world import QUIET, World, _files, _tasks
 
 
 async def nothing_is_left(tasks, files, world):
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         while _tasks() - tasks or len(_files()) > len(files) or world.registered():
             world.drop_idle_connections()
             await asyncio.sleep(0.001)

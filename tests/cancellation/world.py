@@ -48,8 +48,8 @@ class World:
         await enter(self.other.advertise_service("flip", SetBool, flip))
         self.their_pub = await enter(self.other.advertise("in", String))
         self.their_sub = await enter(self.other.subscribe("out", String, queue_size=1000))
-        await self.pub.wait_for_subscribers(timeout=5)
-        await self.sub.wait_for_publishers(timeout=5)
+        await self.pub.wait_for_subscribers(timeout=30)
+        await self.sub.wait_for_publishers(timeout=30)
         await self.probe()
 
     async def remember(self) -> None:
@@ -102,17 +102,17 @@ class World:
         number = next(self.numbers)
         name = f"probe{number}"
         self.pub.publish(data=name)
-        while (await self.their_sub.get(timeout=5)).data != name:
+        while (await self.their_sub.get(timeout=30)).data != name:
             pass
         self.their_pub.publish(data=name)
-        while (await self.sub.get(timeout=5)).data != name:
+        while (await self.sub.get(timeout=30)).data != name:
             pass
         for data in (True, False):
-            assert (await self.caller.call(data=data, timeout=5)).success is data
-            assert (await self.other.call("mine", SetBool, data=data, timeout=5)).success is data
-            assert (await self.node.call("flip", SetBool, data=data, timeout=5)).success is data
+            assert (await self.caller.call(data=data, timeout=30)).success is data
+            assert (await self.other.call("mine", SetBool, data=data, timeout=30)).success is data
+            assert (await self.node.call("flip", SetBool, data=data, timeout=30)).success is data
         await self.other.set_param("/followed", number)
-        assert await self.psub.wait_for(lambda value: value == number, timeout=5) == number
+        assert await self.psub.wait_for(lambda value: value == number, timeout=30) == number
         await self.node.set_param("/followed", -number)
         assert self.psub.value == -number == await self.other.get_param("/followed")
         async with (
@@ -121,8 +121,8 @@ class World:
             self.node.advertise_service("probe", SetBool, flip),
         ):
             pub.publish(data=name)
-            assert (await sub.get(timeout=5)).data == name
-            assert (await self.other.call("probe", SetBool, data=True, timeout=5)).success
+            assert (await sub.get(timeout=30)).data == name
+            assert (await self.other.call("probe", SetBool, data=True, timeout=30)).success
 
     async def _calm(self) -> None:
         self.drop_idle_connections()

@@ -38,7 +38,7 @@ async def command(*words: str, code: str = "") -> AsyncIterator[asyncio.subproce
 
 async def uri_of(process: asyncio.subprocess.Process) -> str:
     assert process.stdout is not None
-    line = (await asyncio.wait_for(process.stdout.readline(), 20)).decode()
+    line = (await asyncio.wait_for(process.stdout.readline(), 40)).decode()
     variable, _, uri = line.strip().partition("=")
     assert variable == "ROS_MASTER_URI"
     return uri
@@ -52,7 +52,7 @@ async def test_it_serves_until_a_signal(name: str, number: int) -> None:
         assert (await client.call(uri, "getPid", "/c"))[2] == process.pid
         await client.close()
         process.send_signal(number)
-        _, errors = await asyncio.wait_for(process.communicate(), 20)
+        _, errors = await asyncio.wait_for(process.communicate(), 40)
         assert (process.returncode, errors) == (0, b"")
 
 
@@ -62,7 +62,7 @@ async def test_it_serves_until_it_is_asked_to_end() -> None:
         client = XmlRpcClient()
         assert await client.call(uri, "shutdown", "/c", "bye") == [1, "shutdown", 0]
         await client.close()
-        _, errors = await asyncio.wait_for(process.communicate(), 20)
+        _, errors = await asyncio.wait_for(process.communicate(), 40)
         assert (process.returncode, errors) == (0, b"")
 
 
@@ -79,7 +79,7 @@ async def test_who_may_connect_and_where_it_listens() -> None:
         reader, writer = await asyncio.open_connection(
             "127.0.0.1", port, local_addr=("127.0.0.2", 0)
         )
-        assert await asyncio.wait_for(reader.read(), 20) == b""
+        assert await asyncio.wait_for(reader.read(), 40) == b""
         writer.close()
 
 
@@ -93,7 +93,7 @@ async def test_who_may_connect_and_where_it_listens() -> None:
 )
 async def test_options_that_make_no_sense(words: tuple[str, ...], text: bytes) -> None:
     async with command("master", "--port", "0", *words) as process:
-        output, errors = await asyncio.wait_for(process.communicate(), 20)
+        output, errors = await asyncio.wait_for(process.communicate(), 40)
     assert (process.returncode, output) == (1, b"")
     assert errors.startswith(b"aioros1 master: ")
     assert text in errors
@@ -105,7 +105,7 @@ async def test_a_port_that_is_taken() -> None:
     port = sock.getsockname()[1]
     with sock:
         async with command("master", "--port", str(port), "--host", "127.0.0.1") as process:
-            output, errors = await asyncio.wait_for(process.communicate(), 20)
+            output, errors = await asyncio.wait_for(process.communicate(), 40)
     assert (process.returncode, output) == (1, b"")
     assert errors.decode().startswith(f"aioros1 master: cannot listen on 127.0.0.1:{port}: ")
     assert b"Traceback" not in errors
@@ -118,7 +118,7 @@ async def test_without_the_extra_it_says_what_to_install(missing: str) -> None:
         "from aioros1.cli import main; main(['master'])"
     )
     async with command(code=code) as process:
-        output, errors = await asyncio.wait_for(process.communicate(), 20)
+        output, errors = await asyncio.wait_for(process.communicate(), 40)
     assert (process.returncode, output) == (2, b"")
     assert errors.decode().splitlines() == [
         f'the aioros1 command needs {missing}: pip install "aioros1[cli]"'

@@ -345,7 +345,7 @@ class Bystander:
         text = f"round {self._rounds}"
         self._out.publish(data=text)
         self._talker.publish(data=text)
-        assert (await self._listener.get(timeout=5)).data == text
-        assert (await self._in.get(timeout=5)).data == text
-        assert (await self._caller.call(data=True, timeout=5)).success
+        assert (await self._listener.get(timeout=30)).data == text
+        assert (await self._in.get(timeout=30)).data == text
+        assert (await self._caller.call(data=True, timeout=30)).success
         return True

@@ -132,7 +132,7 @@ async def test_waiting_for_room_raises_closed_error(make_node, how, what):
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()
         wire.pause()
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         with pytest.raises(TimeoutError):
             while True:
                 await pub.send(data="x" * 500_000, timeout=0.05)
@@ -165,7 +165,7 @@ async def test_a_deferred_call_fails_when_its_provider_closes(make_node):
     provider = await node.advertise_service("flip", SetBool)
     async with dialled(node, caller_header(), flip_request(True)) as wire:
         await wire.read_header()
-        await asyncio.wait_for(anext(provider), 5)
+        await asyncio.wait_for(anext(provider), 30)
         await provider.close()
         ok, text = await wire.answer()
         assert ok == 0
@@ -218,7 +218,7 @@ async def test_a_role_whose_closing_was_cancelled_is_unregistered_with_its_node(
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()
         wire.pause()
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         for _ in range(50):
             pub.publish(data="x" * 500_000)
         (closing,) = await started(pub.close())
@@ -241,10 +241,10 @@ async def test_a_name_can_be_opened_again_after_a_cancelled_closing(make_node):
         node.subscribe("chatter", String) as again,
         other.advertise("chatter", String) as pub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
-        await again.wait_for_publishers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
+        await again.wait_for_publishers(timeout=30)
         pub.publish(data="hi")
-        assert (await again.get(timeout=5)).data == "hi"
+        assert (await again.get(timeout=30)).data == "hi"
     await node.close()
     assert "/node" not in (await other.graph.snapshot()).nodes
 
@@ -279,7 +279,7 @@ async def test_closing_frees_everything_when_the_master_is_gone(make_node, maste
     ports = ports_of(node)
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         await master.close()
         async with asyncio.timeout(PATIENCE):
             await node.close()
@@ -343,7 +343,7 @@ async def test_a_cancelled_close_goes_on_by_itself(make_node):
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()
         wire.pause()
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         for _ in range(50):
             pub.publish(data="x" * 500_000)
         (closing,) = await started(node.close())
@@ -361,7 +361,7 @@ async def test_aborting_ends_everything_at_once(make_node):
     node = await make_node()
     pub = await node.advertise("chatter", String)
     sub = await node.subscribe("chatter", String)
-    await sub.wait_for_publishers(timeout=5)
+    await sub.wait_for_publishers(timeout=30)
     (loop,) = await started(collect(sub))
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()

@@ -46,7 +46,7 @@ def ports(node: aioros1.Node) -> tuple[int, int]:
 
 
 async def is_answered(wire: Wire) -> bool:
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         return bool(await wire.reader.read(1))
 
 
@@ -68,9 +68,9 @@ async def test_both_ports_of_a_node_turn_away_who_is_not_allowed(make_node, capl
             assert await is_answered(wire)
         listener = await make_node("listener", allow=["127.0.0.0/30"])
         async with listener.subscribe("chatter", String) as sub:
-            await pub.wait_for_subscribers(timeout=5)
+            await pub.wait_for_subscribers(timeout=30)
             pub.publish(data="hi")
-            assert (await sub.get(timeout=5)).data == "hi"
+            assert (await sub.get(timeout=30)).data == "hi"
     assert [record.getMessage() for record in caplog.records if "refused" in record.msg] == [
         f"refused a connection from {ELSEWHERE} to the {port} port: it is not in allow"
         for port in ("TCPROS", "XML-RPC")
@@ -110,7 +110,7 @@ async def test_peers_past_tcp_are_of_this_host_and_allowed(make_node, transport)
         talker.advertise("chatter", String) as pub,
         listener.subscribe("chatter", String) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         assert {info.transport for info in sub.connections} <= {"INTRAPROCESS", "UNIXROS"}
     assert talker.stats.connections_forbidden == 0
 
@@ -175,7 +175,7 @@ async def test_a_node_that_has_to_wait_is_registered_all_the_same(make_node):
             *(node.advertise(f"~topic{number}", String) for node in nodes for number in range(5))
         )
         assert len((await nodes[0].graph.snapshot()).topics) >= 15
-        assert master.stats.requests_delayed > 0
+        assert master.stats.requests_delayed == 1
 
 
 async def test_a_node_has_the_same_limits_for_its_slave_api(make_node):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import socket
 
 import pytest
 
@@ -12,7 +13,7 @@ from aioros1.events import PeerDisconnected
 from aioros1.msg.geometry_msgs import PointStamped
 from aioros1.msg.std_msgs import String
 
-from .peers import PATIENCE, dialled, string, subscriber_header, until
+from .peers import PATIENCE, Wire, dialled, string, subscriber_header, until
 
 
 @pytest.fixture
@@ -25,7 +26,7 @@ async def listening(node, pub, topic="/chatter", count=1):
     """A raw subscriber whose connection is established on both sides."""
     async with dialled(node, subscriber_header(topic)) as wire:
         await wire.read_header()
-        await pub.wait_for_subscribers(count, timeout=5)
+        await pub.wait_for_subscribers(count, timeout=30)
         yield wire
 
 
@@ -234,7 +235,7 @@ async def test_send_waits_for_room_and_can_be_cancelled(node):
         assert pub.dropped == 0
         wire.resume()
         assert await numbers(wire, sent) == [*range(sent)]
-        await pub.send(data=numbered(sent), timeout=5)
+        await pub.send(data=numbered(sent), timeout=30)
         assert await numbers(wire, 1) == [sent]
 
 
@@ -249,7 +250,7 @@ async def test_drain_waits_until_everything_is_taken(node):
             await pub.drain(timeout=0.02)
         wire.resume()
         assert await numbers(wire, 100) == [*range(100)]
-        await pub.drain(timeout=5)
+        await pub.drain(timeout=30)
 
 
 # stalled peers
@@ -265,7 +266,7 @@ async def test_a_stalled_subscriber_is_cut_off_and_the_others_never_notice(make_
     ):
         stuck.pause()
         number = 0
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             while pub.subscriber_count == 2:
                 pub.publish(data=numbered(number, BIG))
                 assert await numbers(quick, 1) == [number]
@@ -328,14 +329,14 @@ async def test_seq_is_counted_by_each_publisher(node):
         node.advertise("points", PointStamped) as two,
         node.subscribe("points", PointStamped) as sub,
     ):
-        await sub.wait_for_publishers(timeout=5)
-        await one.wait_for_subscribers(timeout=5)
+        await sub.wait_for_publishers(timeout=30)
+        await one.wait_for_subscribers(timeout=30)
         message = PointStamped()
         message.header.seq = 99
         for publisher in (one, one, two):
             publisher.publish(message)
         one.publish(header={"frame_id": "map"})
-        got = [(await sub.get(timeout=5)).header.seq for _ in range(4)]
+        got = [(await sub.get(timeout=30)).header.seq for _ in range(4)]
         assert got == [1, 2, 1, 3]
 
 
@@ -355,3 +356,32 @@ async def test_connections_that_come_and_go_leave_nothing(node, open_files):
             await until(lambda: not pub.connections)
         await until(lambda: len(asyncio.all_tasks()) <= tasks)
         await until(lambda: open_files() <= files)
+
+
+async def test_a_connection_that_was_full_before_its_first_message_gets_each_once(make_node):
+    """The header alone may be more than the kernel takes at once."""
+    node = await make_node()
+    headers = {"calibration": "x" * (8 << 20)}
+    options = {"headers": headers, "queue_size": 100, "latch": True}
+    async with node.advertise("chatter", String, **options) as pub:
+        pub.publish(data="latched")
+        host, port = node.tcpros_address
+        with socket.socket() as sock:
+            sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            sock.setblocking(False)
+            loop = asyncio.get_running_loop()
+            await loop.sock_connect(sock, (host, port))
+            await loop.sock_sendall(sock, subscriber_header())
+            await until(lambda: pub.subscriber_count == 1)
+            for number in range(5):
+                pub.publish(data=str(number))
+            reader, writer = await asyncio.open_connection(sock=sock.dup())
+        wire = Wire(reader, writer)
+        assert len((await wire.read_header())["calibration"]) == 8 << 20
+        for number in range(5, 10):
+            pub.publish(data=str(number))
+        got = [await wire.string() for _ in range(11)]
+        assert got == ["latched", *map(str, range(10))], got
+        assert (pub.subscriber_count, pub.dropped) == (1, 0)
+        wire.abort()
+        await wire.close()

@@ -23,7 +23,7 @@ from .peers import (
 )
 
 IMPATIENT = pytest.mark.parametrize(
-    "timeouts", [aioros1.Timeouts(handshake=0.15, stall=0.15)], ids=["impatient"]
+    "timeouts", [aioros1.Timeouts(handshake=0.4, stall=0.4)], ids=["impatient"]
 )
 """For tests of the timeouts; all others have time, however busy the machine is."""
 
@@ -51,7 +51,7 @@ async def fake(make_provider):
 
 @pytest.fixture
 async def caller(node, fake):
-    async with node.service_caller("flip", SetBool, persistent=True, timeout=5) as caller:
+    async with node.service_caller("flip", SetBool, persistent=True, timeout=30) as caller:
         yield caller
 
 
@@ -59,7 +59,7 @@ async def caller(node, fake):
 async def any_caller(node, fake, request):
     """A caller of either kind."""
     persistent = request.param == "persistent"
-    async with node.service_caller("flip", SetBool, persistent=persistent, timeout=5) as caller:
+    async with node.service_caller("flip", SetBool, persistent=persistent, timeout=30) as caller:
         yield caller
 
 
@@ -154,7 +154,7 @@ async def test_a_provider_that_was_killed_is_an_error_at_once(fake, any_caller, 
 
 async def test_an_unknown_service_is_not_found(node):
     with pytest.raises(aioros1.ServiceNotFound, match="/nowhere"):
-        await node.call("nowhere", SetBool, timeout=5)
+        await node.call("nowhere", SetBool, timeout=30)
 
 
 @pytest.mark.parametrize(
@@ -176,7 +176,7 @@ async def test_an_address_of_no_use_is_an_error_of_the_call(node, make_provider,
     fake = await make_provider()
     await fake.register(uri)
     with pytest.raises(aioros1.ServiceUnavailable):
-        await node.call("flip", SetBool, timeout=5)
+        await node.call("flip", SetBool, timeout=30)
     assert not await (await node.service_caller("flip", SetBool)).is_available()
 
 
@@ -298,7 +298,7 @@ async def test_calls_of_a_persistent_caller_happen_one_after_the_other(fake, cal
 
 
 async def test_calls_of_another_caller_overlap(node, fake):
-    async with node.service_caller("flip", SetBool, timeout=5) as caller:
+    async with node.service_caller("flip", SetBool, timeout=30) as caller:
         calls = [caller.send_request(data=False) for _ in range(3)]
         wires = [await fake.called() for _ in calls]
         for number, wire in reversed([*enumerate(wires)]):

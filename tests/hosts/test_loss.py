@@ -35,13 +35,11 @@ def ten_thousand(net: Network, worsen: Callable[[Host], bool], reason: str) -> N
     assert a("dropped", "/chatter") == b("dropped", "/chatter") == 0
 
 
-@pytest.mark.timeout(100)
 def test_loss_and_delay(net: Network):
     # Not needed in every run, hence no mark: a module of the kernel cannot be installed.
     ten_thousand(net, Host.disturb, "the kernel has no sch_netem, or there is no `tc`")
 
 
 @pytest.mark.hosts
-@pytest.mark.timeout(100)
 def test_loss(net: Network):
     ten_thousand(net, Host.lose, "there is no `nft`: apt-get install nftables")

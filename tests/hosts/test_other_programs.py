@@ -14,7 +14,7 @@ from ..interop.world import PEERS, ROSPY_MODULES
 from .network import Host, Network
 from .remote import Program
 
-pytestmark = [pytest.mark.interop, pytest.mark.timeout(300, func_only=True)]
+pytestmark = pytest.mark.interop
 
 Start = Callable[..., Process]
 

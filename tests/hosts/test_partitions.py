@@ -56,7 +56,6 @@ def assert_nothing_is_left(*programs: Program) -> None:
         assert program("left") == {"tasks": 0, "sockets": 0}
 
 
-@pytest.mark.timeout(180)
 def test_half_a_minute(net: Network):
     """Longer than every timeout but those for what flows: nothing of that is lost."""
     _, one, _, pub, sub = three(net, stall=120)

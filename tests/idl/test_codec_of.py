@@ -7,15 +7,8 @@ from typing import Any
 import pytest
 
 import aioros1
-from aioros1.idl import (
-    GENPY_NAMES,
-    MessageStore,
-    codec_of,
-    load_action,
-    load_msg,
-    load_srv,
-    spec_of,
-)
+from aioros1.idl import MessageStore, load_action, load_msg, load_srv, spec_of
+from aioros1.idl.codec import GENPY_NAMES, codec_of
 
 SCAN = "string frame\nfloat32[] ranges\n"
 

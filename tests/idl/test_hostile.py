@@ -346,7 +346,7 @@ def test_the_text_of_a_definition_is_not_kept_once_for_each_type() -> None:
 
 
 def test_twice_the_types_take_twice_the_time() -> None:
-    # As many types that each contain all of as many others; too large, all told.
+    # As many types that each contain all of as many others; too large in all.
     costs = []
     for count in (100, 200, 400):
         numbers = range(count)
@@ -357,7 +357,7 @@ def test_twice_the_types_take_twice_the_time() -> None:
         text = "\n".join(parts)
 
         def define(text: str = text) -> None:
-            with pytest.raises(MessageSpecError, match="fields, all told"):
+            with pytest.raises(MessageSpecError, match="fields, with nested ones"):
                 MessageStore(parent=None).add_definition("p/Root", text)
 
         costs.append(calls_of(define))

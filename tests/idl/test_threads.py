@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 
-from aioros1.idl import Message, MessageStore, codec_of
+from aioros1.idl import Message, MessageStore
+from aioros1.idl.codec import codec_of
 
 STRINGS = "string[] names\n"
 JOINT_STATE = (

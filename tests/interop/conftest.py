@@ -32,9 +32,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if HERE in item.path.parents:
             item.add_marker(pytest.mark.interop)
-            if not item.get_closest_marker("timeout"):
-                # Programs are started, and one is compiled by a fixture with a limit of its own.
-                item.add_marker(pytest.mark.timeout(180, func_only=True))
 
 
 @pytest.hookimpl(optionalhook=True)

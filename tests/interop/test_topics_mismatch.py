@@ -29,11 +29,9 @@ async def test_our_subscriber_of_the_wrong_type(under_rosmaster: World, client: 
     ):
         await take(good, 20)
         assert bad.publisher_count == 0
-        assert bad.queued == 0
-        with pytest.raises(TimeoutError):
-            await bad.get(timeout=0.3)
         assert wrong.is_open
         await take(good, 20)
+        assert bad.queued == 0
         assert talker.code is None
 
 
@@ -116,8 +114,9 @@ async def test_two_types_on_one_topic(under_rosmaster: World, client: str) -> No
         (message,) = await take(strings, 1)
         assert message.data == "ours"
         await until(lambda: _two_publishers(world, topic), what="both publishers to be registered")
-        with pytest.raises(TimeoutError):
-            await strings.get(timeout=0.3)
+        pub.publish(data="ours again")
+        (message,) = await take(strings, 1)
+        assert message.data == "ours again"
         assert strings.publisher_count == 1
 
 

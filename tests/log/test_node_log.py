@@ -175,7 +175,7 @@ async def test_thinned_out_records_go_to_rosout(make_node):
         for number in range(3):
             node.log.once.info("once %d", number)
         node.log.info("the end")
-        first, last = [await sub.get(timeout=5) for _ in range(2)]
+        first, last = [await sub.get(timeout=30) for _ in range(2)]
         assert (first.msg, last.msg) == ("once 0", "the end")
         assert (first.file, first.function, first.line) == (__file__, last.function, last.line - 1)
 

@@ -27,7 +27,7 @@ def until() -> Callable[[Callable[[], object]], Awaitable[None]]:
     """``await until(lambda: ...)``: for counters, which nobody announces."""
 
     async def until(holds: Callable[[], object]) -> None:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             while not holds():
                 await asyncio.sleep(0.001)
 
@@ -125,18 +125,18 @@ class TcprosPeer:
     async def call(self, request: bytes) -> tuple[int, bytes]:
         """Send a request; the byte that says whether it went well, and the answer."""
         self._writer.write(struct.pack("<I", len(request)) + request)
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             [ok] = await self._reader.readexactly(1)
         return ok, await self.frame()
 
     async def is_closed(self) -> bool:
         """Whether the other side closes without another word."""
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             return await self._reader.read(1) == b""
 
 
 async def read_frame(reader: asyncio.StreamReader) -> bytes:
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         (length,) = struct.unpack("<I", await reader.readexactly(4))
         return await reader.readexactly(length)
 

@@ -35,12 +35,12 @@ async def rosout(talker, make_node):
     """What comes on ``/rosout``."""
     listener = await make_node("listener")
     async with listener.subscribe("/rosout", "rosgraph_msgs/Log", queue_size=100) as sub:
-        await sub.wait_for_publishers(timeout=5)
+        await sub.wait_for_publishers(timeout=30)
         yield sub
 
 
 async def hear(rosout, text):
-    while (log := await rosout.get(timeout=5)).msg != text:
+    while (log := await rosout.get(timeout=30)).msg != text:
         pass
     return log
 
@@ -73,23 +73,23 @@ async def test_CrosLog_has_level_name_msg_file_function_line_and_pubs(talker, ro
 
 async def test_stringToLogLevel_is_the_service_set_logger_level(talker, make_node):
     other = await make_node("other")
-    await other.wait_for_service("/robot/talker/set_logger_level", timeout=5)
+    await other.wait_for_service("/robot/talker/set_logger_level", timeout=30)
     for text, level in (("debug", 10), ("info", 20), ("warn", 30), ("error", 40), ("fatal", 50)):
         await other.call(
             "/robot/talker/set_logger_level",
             "roscpp/SetLoggerLevel",
             logger=talker.log.logger.name,
             level=text,
-            timeout=5,
+            timeout=30,
         )
         assert talker.log.getEffectiveLevel() == level
 
 
 async def test_LogLevelToString_is_the_service_get_loggers(talker, make_node):
     other = await make_node("other")
-    await other.wait_for_service("/robot/talker/get_loggers", timeout=5)
+    await other.wait_for_service("/robot/talker/get_loggers", timeout=30)
     talker.log.setLevel(logging.ERROR)
-    reply = await other.call("/robot/talker/get_loggers", "roscpp/GetLoggers", timeout=5)
+    reply = await other.call("/robot/talker/get_loggers", "roscpp/GetLoggers", timeout=30)
     assert [(each.name, each.level) for each in reply.loggers] == [("ros.robot.talker", "error")]
 
 

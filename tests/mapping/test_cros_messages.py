@@ -130,7 +130,7 @@ async def test_cRosMessageBuildFromDef_of_a_publisher(make_node):
         listener.subscribe("wheel") as sub,
     ):
         pub.publish(speed=2.5)
-        message = await sub.get(timeout=5)
+        message = await sub.get(timeout=30)
         assert (message._type, message.speed) == ("car_msgs/Wheel", 2.5)
 
 
@@ -500,8 +500,8 @@ async def test_HEADER_DEFAULT_TYPEDEF_is_numbered_when_published(make_node):
         node.advertise("pose", PoseStamped) as pub,
         node.subscribe("pose", PoseStamped) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         for _ in range(3):
             pub.publish()
-        numbers = [(await sub.get(timeout=5)).header.seq for _ in range(3)]
+        numbers = [(await sub.get(timeout=30)).header.seq for _ in range(3)]
         assert numbers == [numbers[0], numbers[0] + 1, numbers[0] + 2]

@@ -72,7 +72,7 @@ async def test_cRosApiDeleteParam(make_node):
 async def test_cRosApiDeleteParam_is_seen_once_by_whoever_does_it(pair):
     """The master tells of a deletion to the one who asked for it, too."""
     deleter, other = pair
-    async with deleter.subscribe_param("rate", default=0) as psub, asyncio.timeout(5):
+    async with deleter.subscribe_param("rate", default=0) as psub, asyncio.timeout(30):
         await deleter.set_param("rate", 1)
         await deleter.delete_param("rate")
         await other.set_param("rate", 2)
@@ -110,7 +110,7 @@ async def test_cRosApiSubscribeParam_waits_for_a_value(pair):
     setter, follower = pair
     async with follower.subscribe_param("rate") as psub:
         await setter.set_param("rate", 10)
-        assert await psub.wait_for(lambda rate: rate > 5, timeout=5) == 10
+        assert await psub.wait_for(lambda rate: rate > 5, timeout=30) == 10
         with pytest.raises(TimeoutError, match="/rate"):
             await psub.wait_for(lambda rate: rate > 50, timeout=0.01)
 
@@ -120,7 +120,7 @@ async def test_cRosApiSubscribeParam_sees_a_deletion(pair):
     await setter.set_param("rate", 10)
     async with follower.subscribe_param("rate", default=1) as psub:
         await setter.delete_param("rate")
-        assert await psub.wait_for(lambda rate: rate != 10, timeout=5) == 1
+        assert await psub.wait_for(lambda rate: rate != 10, timeout=30) == 1
 
 
 async def test_cRosApiUnsubscribeParam_ends_the_updates(pair):
@@ -130,7 +130,7 @@ async def test_cRosApiUnsubscribeParam_ends_the_updates(pair):
         await psub.close()
         await setter.set_param("rate", 10)
         await setter.set_param("other", 10)
-        await other.wait_for(lambda value: value == 10, timeout=5)
+        await other.wait_for(lambda value: value == 10, timeout=30)
     assert psub.stats.messages == 0
     with pytest.raises(aioros1.ClosedError):
         await psub.wait_for(lambda value: True)

@@ -20,7 +20,7 @@ async def peer(pair, until):
     pub = await talker.advertise("chatter", String)
     await talker.subscribe("orders", String)
     sub = await listener.subscribe("chatter", String)
-    await pub.wait_for_subscribers(timeout=5)
+    await pub.wait_for_subscribers(timeout=30)
     pub.publish(data="one")
     pub.publish(data="two")
     await until(lambda: sub.stats.messages == 2)
@@ -55,7 +55,7 @@ async def test_BusStats_TopicSubStats_and_SubConnectionData(peer, pair):
 async def test_BusStats_ServiceStats(peer, pair):
     talker, listener = pair
     await talker.advertise_service("add", TwoInts, lambda request: {"sum": 0})
-    await listener.call("add", TwoInts, a=1, b=2, timeout=5)
+    await listener.call("add", TwoInts, a=1, b=2, timeout=30)
     stats = (await peer.get_bus_stats()).service
     assert (stats.num_requests, stats.bytes_received, stats.bytes_sent) == (1, 20, 13)
 
@@ -87,7 +87,7 @@ async def test_CrosTransportDirection_BOTH(peer, pair):
     talker, listener = pair
     provider = await talker.advertise_service("add", TwoInts, lambda request: {"sum": 0})
     async with listener.service_caller("add", TwoInts, persistent=True) as caller:
-        await caller.call(a=1, b=2, timeout=5)
+        await caller.call(a=1, b=2, timeout=30)
         rows = [info for info in await peer.get_bus_info() if info.topic == provider.name]
         assert [row.direction for row in rows] == ["b"]
 
@@ -100,7 +100,7 @@ async def test_cRosApiShutdown(peer, pair):
     """cROS ignores the request; here the node ends, and says why."""
     talker, _ = pair
     await peer.shutdown("enough")
-    reason = await asyncio.wait_for(talker.wait_closed(), 5)
+    reason = await asyncio.wait_for(talker.wait_closed(), 30)
     assert reason == "[/listener] enough"
     with pytest.raises(aioros1.PeerUnreachable):
         await peer.get_pid()
@@ -201,12 +201,12 @@ async def test_slave_method_publisherUpdate_connects(peer, pair):
     ):
         pub.publish(data="go")
         assert await peer.call("publisherUpdate", "/orders", [far.uri]) == 0
-        assert (await sub.get(timeout=5)).data == "go"
+        assert (await sub.get(timeout=30)).data == "go"
 
 
 async def test_slave_method_shutdown(peer, pair):
     assert await peer.call("shutdown", "enough") == 0
-    assert "enough" in await asyncio.wait_for(pair[0].wait_closed(), 5)
+    assert "enough" in await asyncio.wait_for(pair[0].wait_closed(), 30)
 
 
 async def test_slave_method_system_multicall(peer, pair):

@@ -99,7 +99,7 @@ async def test_xmlrpcParamRelease_of_what_one_follows_oneself(make_node):
         assert psub.value == [1, 2]
         psub.value.clear()
         assert psub.value == [1, 2]
-        update = await asyncio.wait_for(anext(psub), 5)
+        update = await asyncio.wait_for(anext(psub), 30)
         update.value.clear()
         assert psub.value == [1, 2]
 
@@ -112,7 +112,7 @@ async def test_xmlrpcParamCopy_is_the_same_for_all_who_follow(pair):
         other.subscribe_param("value", default=0) as theirs,
     ):
         await setter.set_param("value", {"a": (1, 2)})
-        assert await theirs.wait_for(bool, timeout=5) == {"a": [1, 2]}
+        assert await theirs.wait_for(bool, timeout=30) == {"a": [1, 2]}
         assert own.value == {"a": [1, 2]}
 
 
@@ -284,7 +284,7 @@ async def test_request_after_request_on_one_connection(make_node, function):
     try:
         for _ in range(3):
             writer.write(head.encode() + body)
-            async with asyncio.timeout(5):
+            async with asyncio.timeout(30):
                 answer = (await reader.readuntil(b"\r\n\r\n")).decode().lower()
                 length = int(answer.partition("content-length:")[2].split()[0])
                 document = await reader.readexactly(length)

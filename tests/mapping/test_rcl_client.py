@@ -28,9 +28,11 @@ async def test_rcl_client_t(client):
 
 async def test_rcl_client_options_t(client):
     async with client.service_caller(
-        "add", TwoInts, persistent=True, timeout=5, tcp_nodelay=False
+        "add", TwoInts, persistent=True, timeout=30, tcp_nodelay=False
     ) as caller:
-        assert caller.options == ServiceCallerOptions(persistent=True, timeout=5, tcp_nodelay=False)
+        assert caller.options == ServiceCallerOptions(
+            persistent=True, timeout=30, tcp_nodelay=False
+        )
         with pytest.raises(dataclasses.FrozenInstanceError):
             caller.options.timeout = 1
 
@@ -47,7 +49,7 @@ async def test_rcl_get_zero_initialized_client(client):
 @pytest.mark.parametrize("type", [TwoInts, "roscpp_tutorials/TwoInts"], ids=["class", "name"])
 async def test_rcl_client_init(client, type):
     async with client.service_caller("add", type) as caller:
-        assert (await caller.call(a=1, b=2, timeout=5)).sum == 3
+        assert (await caller.call(a=1, b=2, timeout=30)).sum == 3
 
 
 async def test_rcl_client_init_with_a_name_or_a_type_that_is_wrong(client):
@@ -66,7 +68,7 @@ async def test_rcl_client_fini(client):
         await caller.call(a=1, b=2)
     with pytest.raises(aioros1.ClosedError):
         caller.send_request(a=1, b=2)
-    assert (await client.call("add", TwoInts, a=1, b=2, timeout=5)).sum == 3
+    assert (await client.call("add", TwoInts, a=1, b=2, timeout=30)).sum == 3
 
 
 async def test_rcl_client_fini_during_a_call(pair):
@@ -74,7 +76,7 @@ async def test_rcl_client_fini_during_a_call(pair):
     await server.advertise_service("never", TwoInts)
     caller = await client.service_caller("never", TwoInts, persistent=True)
     pending = caller.send_request(a=1, b=2)
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         while not caller.connections:
             await asyncio.sleep(0.001)
         await caller.close()
@@ -96,14 +98,14 @@ async def test_rcl_send_request(client):
         calls = [caller.send_request(a=number, b=1) for number in range(3)]
         assert [call.sequence for call in calls] == [1, 2, 3]
         assert not any(call.done() for call in calls)
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             assert [(await call).sum for call in calls] == [1, 2, 3]
 
 
 async def test_rcl_send_request_on_one_connection_answers_in_order(client):
     async with client.service_caller("add", TwoInts, persistent=True) as caller:
         calls = [caller.send_request(a=number, b=1) for number in range(3)]
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             assert [(await call).sum for call in calls] == [1, 2, 3]
         assert len(caller.connections) == 1
 
@@ -113,7 +115,7 @@ async def test_rcl_send_request_can_be_given_up(pair):
     provider = await server.advertise_service("never", TwoInts)
     async with client.service_caller("never", TwoInts) as caller:
         pending = caller.send_request(a=1, b=2)
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             await anext(provider)
             pending.cancel()
             with pytest.raises(asyncio.CancelledError):
@@ -123,14 +125,14 @@ async def test_rcl_send_request_can_be_given_up(pair):
 
 async def test_rcl_take_response(client):
     async with client.service_caller("add", TwoInts) as caller:
-        pending = caller.send_request(TwoInts.Request(a=1, b=2), timeout=5)
+        pending = caller.send_request(TwoInts.Request(a=1, b=2), timeout=30)
         assert await pending == TwoInts.Response(sum=3)
         assert pending.done()
 
 
 async def test_rcl_take_response_of_a_service_that_is_not_there(client):
     async with client.service_caller("nothing", TwoInts) as caller:
-        pending = caller.send_request(a=1, b=2, timeout=5)
+        pending = caller.send_request(a=1, b=2, timeout=30)
         with pytest.raises(aioros1.ServiceNotFound):
             await pending
 
@@ -155,7 +157,7 @@ async def test_rcl_client_get_rmw_handle(client, pair):
     """What is below a caller is its connection."""
     server, _ = pair
     async with client.service_caller("add", TwoInts, persistent=True) as caller:
-        await caller.call(a=1, b=2, timeout=5)
+        await caller.call(a=1, b=2, timeout=30)
         [connection] = caller.connections
         assert (connection.transport, connection.direction) == ("TCPROS", "b")
         assert connection.peer == connection.header["callerid"] == "/talker"
@@ -171,7 +173,7 @@ async def test_rcl_service_server_is_available(client):
     ):
         assert await caller.is_available()
         assert not await other.is_available()
-        await caller.wait_for_service(timeout=5)
+        await caller.wait_for_service(timeout=30)
         with pytest.raises(TimeoutError, match="/nothing did not appear"):
             await other.wait_for_service(timeout=0.02)
 
@@ -179,7 +181,7 @@ async def test_rcl_service_server_is_available(client):
 async def test_rcl_service_server_is_available_once_it_is_provided(pair):
     server, client = pair
     async with client.service_caller("later", TwoInts) as caller:
-        waiting = asyncio.create_task(caller.wait_for_service(timeout=5))
+        waiting = asyncio.create_task(caller.wait_for_service(timeout=30))
         await asyncio.sleep(0)
         assert not waiting.done()
         async with server.advertise_service("later", TwoInts, lambda request: None):

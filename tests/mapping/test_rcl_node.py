@@ -67,7 +67,7 @@ async def test_rcl_node_init_of_a_name_that_is_taken(make_node):
     await older.advertise("chatter", String)
     newer = await make_node("talker")
     await newer.advertise("chatter", String)
-    reason = await asyncio.wait_for(older.wait_closed(), 5)
+    reason = await asyncio.wait_for(older.wait_closed(), 30)
     assert "new node registered with same name" in reason
     assert older.close_reason == reason
     assert newer.is_open
@@ -107,7 +107,7 @@ async def test_rcl_node_is_valid_except_context(master):
     node.abort()
     assert node.state == "closed"
     assert not pub.is_open
-    assert await asyncio.wait_for(node.wait_closed(), 5) == "aborted"
+    assert await asyncio.wait_for(node.wait_closed(), 30) == "aborted"
 
 
 async def test_rcl_node_get_name(make_node):
@@ -183,7 +183,7 @@ async def test_rcl_node_get_graph_guard_condition(pair):
     talker, listener = pair
     changes = listener.graph.changes(poll=0.01)
     watching = asyncio.create_task(anext(changes))
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         # What is there already is no change: wait until the watcher has looked once.
         numbers = itertools.count()
         while not watching.done():
@@ -201,7 +201,7 @@ async def test_rcl_node_get_graph_guard_condition_to_wait_for_something(pair):
     waiting = asyncio.create_task(
         listener.graph.wait_for(
             lambda graph: "/chatter" in graph.topics and "/nothing" in graph.services,
-            timeout=5,
+            timeout=30,
             poll=0.01,
         )
     )

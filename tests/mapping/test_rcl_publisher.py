@@ -100,11 +100,11 @@ async def test_rcl_publisher_get_default_options(node):
 
 async def test_rcl_publish(node):
     async with node.advertise("chatter", String) as pub, node.subscribe("chatter") as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish(String(data="a message"))
         pub.publish(data="fields")
         pub.publish({"data": "a dict"})
-        heard = [(await sub.get(timeout=5)).data for _ in range(3)]
+        heard = [(await sub.get(timeout=30)).data for _ in range(3)]
         assert heard == ["a message", "fields", "a dict"]
 
 
@@ -124,9 +124,9 @@ async def test_rcl_publish_to_several_subscribers(node, make_node):
     others = [await make_node(f"listener{number}") for number in range(3)]
     subs = [await other.subscribe("chatter", String) for other in others]
     async with node.advertise("chatter", String) as pub:
-        await pub.wait_for_subscribers(3, timeout=5)
+        await pub.wait_for_subscribers(3, timeout=30)
         pub.publish(data="hi")
-        assert [(await sub.get(timeout=5)).data for sub in subs] == ["hi"] * 3
+        assert [(await sub.get(timeout=30)).data for sub in subs] == ["hi"] * 3
         assert pub.stats.messages == 1
 
 
@@ -134,9 +134,9 @@ async def test_rcl_publish_to_several_subscribers(node, make_node):
 async def test_rcl_publish_serialized_message(node, kind):
     message = Header(frame_id="map")
     async with node.advertise("header", Header) as pub, node.subscribe("header") as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish_raw(kind(message.to_bytes()))
-        assert await sub.get(timeout=5) == message
+        assert await sub.get(timeout=30) == message
 
 
 async def test_rcl_publish_serialized_message_of_another_node(node, make_node):
@@ -148,17 +148,17 @@ async def test_rcl_publish_serialized_message_of_another_node(node, make_node):
         node.advertise("relayed", String) as relay_out,
         listener.subscribe("relayed", String) as sub,
     ):
-        await source.wait_for_subscribers(timeout=5)
-        await relay_out.wait_for_subscribers(timeout=5)
+        await source.wait_for_subscribers(timeout=30)
+        await relay_out.wait_for_subscribers(timeout=30)
         source.publish(data="hi")
-        relay_out.publish_raw(await relay_in.get(timeout=5))
-        assert (await sub.get(timeout=5)).data == "hi"
+        relay_out.publish_raw(await relay_in.get(timeout=30))
+        assert (await sub.get(timeout=30)).data == "hi"
 
 
 async def test_rcl_publisher_assert_liveliness_is_what_subscribers_notice(node, make_node):
     """ROS 1 has no leases: that a publisher is gone is seen by its connection."""
     listener = await make_node("listener")
-    async with listener.subscribe("chatter", String) as sub, asyncio.timeout(5):
+    async with listener.subscribe("chatter", String) as sub, asyncio.timeout(30):
         pub = await node.advertise("chatter", String)
         await sub.wait_for_publishers()
         events = listener.events()
@@ -183,7 +183,7 @@ async def test_rcl_publisher_get_rmw_handle(node, make_node):
     """What is below a publisher are its connections."""
     listener = await make_node("listener")
     async with node.advertise("chatter", String) as pub, listener.subscribe("chatter", String):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         [connection] = pub.connections
         assert (connection.peer, connection.direction) == ("/listener", "o")
         assert connection.transport == "TCPROS"
@@ -216,15 +216,15 @@ async def test_rcl_publisher_get_subscription_count(node, make_node):
         with pytest.raises(TimeoutError):
             await pub.wait_for_subscribers(timeout=0.01)
         sub = await listener.subscribe("chatter", String)
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         # Two of one node share a connection, and count once.
         second = await listener.subscribe("chatter", String)
-        await sub.wait_for_publishers(timeout=5)
+        await sub.wait_for_publishers(timeout=30)
         assert pub.subscriber_count == 1
         events = node.events()
         await sub.close()
         await second.close()
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             assert isinstance(await anext(events), aioros1.PeerDisconnected)
         assert pub.subscriber_count == 0
 
@@ -235,7 +235,7 @@ async def test_rcl_publisher_get_actual_qos(node, tcpros):
     async with node.advertise("chatter", String, latch=True, headers=headers) as pub:
         fields = {"callerid": "/hand", "topic": "/chatter", "md5sum": "*", "tcp_nodelay": "1"}
         async with tcpros(node.tcpros_address, fields) as peer:
-            await pub.wait_for_subscribers(timeout=5)
+            await pub.wait_for_subscribers(timeout=30)
             assert (pub.options.latch, peer.header["latching"]) == (True, "1")
             assert peer.header["origin"] == "test"
             assert pub.connections[0].header["tcp_nodelay"] == "1"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
@@ -12,10 +13,6 @@ import pytest
 from aioros1.net import coalescing
 from aioros1.net.coalescing import Coalescer
 from aioros1.net.loop_state import loop_state
-
-
-def is_collecting(coalescer: Coalescer) -> bool:
-    return coalescer.collecting_in != 0
 
 
 @pytest.fixture
@@ -34,12 +31,13 @@ async def test_a_message_alone_is_not_collected_and_a_burst_is(is_burst: Any) ->
     coalescer.begin()
     coalescer.sent_alone()
     coalescer.begin()
-    assert not is_collecting(coalescer)
+    assert not coalescer.is_collecting
     is_burst(True)
     coalescer.begin()
-    assert coalescer.collecting_in == threading.get_ident()
+    assert coalescer.is_collecting
+    assert coalescer.collects_here()
     await asyncio.sleep(0)
-    assert not is_collecting(coalescer)
+    assert not coalescer.is_collecting
 
 
 async def test_much_in_one_iteration_asks_for_a_pause(is_burst: Any) -> None:
@@ -49,7 +47,7 @@ async def test_much_in_one_iteration_asks_for_a_pause(is_burst: Any) -> None:
     assert not coalescer.should_yield
     coalescer.sent_alone()
     assert coalescer.should_yield
-    assert is_collecting(coalescer)
+    assert coalescer.is_collecting
     await asyncio.sleep(0)
     assert not coalescer.should_yield
     coalescer.sent_alone()
@@ -75,7 +73,7 @@ async def test_a_function_that_raises_is_reported_and_keeps_no_other_from_being_
     await asyncio.sleep(0)
     assert called == [0, 1, 2]
     assert [repr(report["exception"]) for report in reports] == ["ValueError('a mistake')"] * 3
-    assert not is_collecting(coalescer)
+    assert not coalescer.is_collecting
     coalescer.collect()
     coalescer.call_at_end(lambda: called.append(3))
     await asyncio.sleep(0)
@@ -94,16 +92,19 @@ async def test_another_thread_is_refused_and_changes_nothing(is_burst: Any) -> N
             refused.append(str(error))
 
     await asyncio.to_thread(publish)
-    assert not is_collecting(coalescer)
+    assert not coalescer.is_collecting
     coalescer.collect()
-    here = coalescer.collecting_in
-    thread = threading.Thread(target=publish)
+    elsewhere: list[bool] = []
+    thread = threading.Thread(
+        target=lambda: (elsewhere.append(coalescer.collects_here()), publish())
+    )
     thread.start()
     thread.join()
-    assert coalescer.collecting_in == here
+    assert elsewhere == [False]
+    assert coalescer.collects_here()
     assert ["publish() was called in thread" in text for text in refused] == [True, True]
     await asyncio.sleep(0)
-    assert not is_collecting(coalescer)
+    assert not coalescer.is_collecting
 
 
 def test_a_closed_loop_collects_nothing() -> None:
@@ -116,7 +117,7 @@ def test_a_closed_loop_collects_nothing() -> None:
     for _ in range(2):
         with pytest.raises(RuntimeError, match="closed"):
             coalescer.collect()
-        assert not is_collecting(coalescer)
+        assert not coalescer.is_collecting
 
 
 def test_a_burst_before_the_loop_runs_again_goes_out_when_it_does() -> None:
@@ -132,4 +133,28 @@ def test_a_burst_before_the_loop_runs_again_goes_out_when_it_does() -> None:
     loop.run_until_complete(asyncio.sleep(0))
     loop.close()
     assert called == [1]
-    assert not is_collecting(coalescer)
+    assert not coalescer.is_collecting
+
+
+def test_a_loop_that_goes_on_in_another_thread_collects_there() -> None:
+    async def collect() -> Coalescer:
+        coalescer = loop_state().coalescer
+        coalescer.collect()
+        return coalescer
+
+    async def go_on() -> list[bool]:
+        coalescer.begin()
+        await asyncio.sleep(0)
+        states = [coalescer.is_collecting]
+        coalescer.collect()
+        states.append(coalescer.collects_here())
+        await asyncio.sleep(0)
+        return [*states, coalescer.is_collecting]
+
+    loop = asyncio.new_event_loop()
+    coalescer = loop.run_until_complete(collect())
+    with ThreadPoolExecutor(1) as pool:
+        states = pool.submit(loop.run_until_complete, go_on()).result(30)
+    loop.close()
+    assert states == [False, True, False]
+    assert not coalescer.collects_here()

@@ -153,7 +153,7 @@ def test_hosts_in_uris() -> None:
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost"])
 def test_listening(host: str) -> None:
     (sock,) = bind_sockets(host)
-    with sock, socket.create_connection(sock.getsockname(), timeout=5):
+    with sock, socket.create_connection(sock.getsockname(), timeout=30):
         assert sock.getsockname()[0] == "127.0.0.1"
 
 
@@ -163,7 +163,7 @@ def test_listening_on_both_kinds() -> None:
         (sock,) = bind_sockets("::")
     except OSError:
         pytest.skip("needs IPv6")
-    with sock, socket.create_connection(("127.0.0.1", sock.getsockname()[1]), timeout=5):
+    with sock, socket.create_connection(("127.0.0.1", sock.getsockname()[1]), timeout=30):
         pass
 
 

@@ -395,6 +395,19 @@ async def test_closing_ends_calls_wherever_they_are(monkeypatch: pytest.MonkeyPa
         await serving.until(open=0)
 
 
+async def test_closing_does_not_wait_for_ever_for_a_transport(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    async with scripted(Serving(KEEPING["roscpp"])) as uri:
+        ours = XmlRpcClient()
+        await ours.call(uri, "m")
+        with monkeypatch.context() as patch:
+            patch.setattr(http_client, "CLOSING", 0.01)
+            patch.setattr(http_client._Connection, "abort", lambda self: None)
+            await ours.close()
+        await ours.close()
+
+
 async def test_names_that_nobody_knows(monkeypatch: pytest.MonkeyPatch) -> None:
     async def resolve(host: str, port: int) -> Any:
         raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")

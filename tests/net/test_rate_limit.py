@@ -75,3 +75,11 @@ def test_of_many_keys_only_some_are_spoken_of() -> None:
     assert seldom("4", 60)
     assert [seldom(str(number), 61) for number in range(1000)].count(True) == 2
     assert len(seldom._spoken) == 3
+
+
+@pytest.mark.parametrize("now", [0.0, 3120.123456789, 4096.7, 1e7 + 0.1])
+@pytest.mark.parametrize("rate", [0.001, 50.0, 1e4])
+def test_what_fits_the_burst_never_waits_whatever_the_clock_says(now: float, rate: float) -> None:
+    limit = RateLimit(rate, 3)
+    assert [limit.take("a", now) for _ in range(3)] == [0.0] * 3
+    assert limit.take("a", now) == pytest.approx(1 / rate, rel=1e-3)

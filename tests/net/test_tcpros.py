@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import errno
 import math
 import socket
 import struct
@@ -12,7 +13,7 @@ from collections.abc import AsyncIterator
 import pytest
 
 from aioros1.errors import ClosedError, HandshakeError
-from aioros1.net import tcpros
+from aioros1.net import connecting, tcpros
 from aioros1.net.tcpros import Listener, Stream, connect, connection_info, take_over
 from aioros1.options import Limits, Timeouts
 from aioros1.wire.handshake import Server
@@ -34,7 +35,7 @@ async def test_a_header_is_read_and_not_a_byte_beyond_it(pair):
     stream, peer = pair
     await say(peer, HEADER + b"first messages")
     side = server_side()
-    await stream.receive_header(side, timeout=5)
+    await stream.receive_header(side, timeout=30)
     assert side.topic == "/chatter"
     assert await stream.reader.readexactly(14) == b"first messages"
 
@@ -42,7 +43,7 @@ async def test_a_header_is_read_and_not_a_byte_beyond_it(pair):
 async def test_a_header_byte_by_byte(pair):
     stream, peer = pair
     side = server_side()
-    receiving = asyncio.create_task(stream.receive_header(side, timeout=5))
+    receiving = asyncio.create_task(stream.receive_header(side, timeout=30))
     for byte in HEADER:
         await say(peer, bytes([byte]))
         await asyncio.sleep(0)
@@ -62,19 +63,19 @@ async def test_the_end_instead_of_a_header(pair):
     await say(peer, HEADER[:-1])
     peer.close()
     with pytest.raises(ConnectionError, match="connection lost in the handshake"):
-        await stream.receive_header(server_side(), timeout=5)
+        await stream.receive_header(server_side(), timeout=30)
 
 
 async def test_a_length_beyond_the_limit_is_not_waited_for(pair):
     stream, peer = pair
     await say(peer, struct.pack("<I", 1001))
     with pytest.raises(HandshakeError, match="1001 bytes"):
-        await stream.receive_header(server_side(), timeout=5)
+        await stream.receive_header(server_side(), timeout=30)
 
 
 async def test_a_cancelled_handshake_is_a_cancellation(pair):
     stream, _ = pair
-    receiving = asyncio.create_task(stream.receive_header(server_side(), timeout=5))
+    receiving = asyncio.create_task(stream.receive_header(server_side(), timeout=30))
     await asyncio.sleep(0.01)
     receiving.cancel()
     with pytest.raises(asyncio.CancelledError):
@@ -178,10 +179,42 @@ async def test_every_address_of_a_host_is_tried(listening, monkeypatch):
     async def two(host, port=0):
         return [(socket.AF_INET, "127.0.0.3"), (socket.AF_INET, "127.0.0.1")]
 
-    monkeypatch.setattr(tcpros, "resolve", two)
+    monkeypatch.setattr(connecting, "resolve", two)
     stream = await connect("robot", listening.getsockname()[1], Timeouts())
     assert stream.peer.startswith("127.0.0.1:")
     await drop(stream)
+
+
+async def test_an_address_that_is_silent_does_not_hold_up_the_next(listening, monkeypatch):
+    loop = asyncio.get_running_loop()
+    create_connection = loop.create_connection
+
+    async def two(host: str, port: int) -> list[tuple[socket.AddressFamily, str]]:
+        return [(socket.AF_INET, "192.0.2.1"), (socket.AF_INET, "127.0.0.1")]
+
+    async def connection(factory, host, *args, **kwargs):
+        if host == "192.0.2.1":
+            await asyncio.Event().wait()
+        return await create_connection(factory, host, *args, **kwargs)
+
+    monkeypatch.setattr(connecting, "resolve", two)
+    monkeypatch.setattr(connecting, "STAGGER", 0.01)
+    monkeypatch.setattr(loop, "create_connection", connection, raising=False)
+    stream = await connect("robot", listening.getsockname()[1], Timeouts())
+    peer, _ = await loop.sock_accept(listening)
+    with peer:
+        await say(peer, HEADER)
+        await stream.receive_header(server_side(), timeout=5)
+    await drop(stream)
+
+
+async def test_a_timeout_of_the_system_is_a_connection_error(monkeypatch):
+    async def connection(*args, **kwargs):
+        raise OSError(errno.ETIMEDOUT, "Connection timed out")
+
+    monkeypatch.setattr(asyncio.get_running_loop(), "create_connection", connection, raising=False)
+    with pytest.raises(ConnectionError, match=r"cannot connect to 127\.0\.0\.1:1: .*timed out"):
+        await connect("127.0.0.1", 1, Timeouts())
 
 
 @pytest.mark.parametrize("host", ["a..b", "a" * 70, "no such host", ""])
@@ -217,7 +250,7 @@ async def test_no_byte_is_lost_when_a_protocol_takes_over(pair, behind):
     stream, peer = pair
     data = bytes(range(256)) * 2000
     saying = asyncio.create_task(say(peer, HEADER + data[:behind]))
-    await stream.receive_header(server_side(), timeout=5)
+    await stream.receive_header(server_side(), timeout=30)
     if behind <= 100_000:  # else the system cannot hold it
         await saying
     await asyncio.sleep(0.01)
@@ -227,7 +260,7 @@ async def test_no_byte_is_lost_when_a_protocol_takes_over(pair, behind):
     await saying
     await say(peer, data[behind:])
     peer.shutdown(socket.SHUT_WR)
-    await asyncio.wait_for(taker.lost, 5)
+    await asyncio.wait_for(taker.lost, 30)
     assert rest + bytes(taker.data) == data
 
 
@@ -235,17 +268,17 @@ async def test_an_end_that_came_before_is_seen_after_taking_over(pair):
     stream, peer = pair
     await say(peer, HEADER + b"rest")
     peer.shutdown(socket.SHUT_WR)
-    await stream.receive_header(server_side(), timeout=5)
+    await stream.receive_header(server_side(), timeout=30)
     await asyncio.sleep(0.01)
     taker = Taker()
     assert await take_over(stream, taker) == b"rest"
-    await asyncio.wait_for(taker.lost, 5)
+    await asyncio.wait_for(taker.lost, 30)
 
 
 async def test_a_connection_that_is_lost_already_cannot_be_taken_over(pair):
     stream, peer = pair
     await say(peer, HEADER)
-    await stream.receive_header(server_side(), timeout=5)
+    await stream.receive_header(server_side(), timeout=30)
     stream.abort()
     with pytest.raises(ConnectionError, match="lost in the handshake"):
         await take_over(stream, Taker())
@@ -299,14 +332,14 @@ async def serving(
 
 async def is_closed_at_once(stream: Stream) -> bool:
     try:
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             return await stream.reader.read() == b""
     except ConnectionError:
         return True
 
 
 async def eventually(condition) -> None:
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         while not condition():
             await asyncio.sleep(0.002)
 
@@ -355,7 +388,7 @@ async def test_a_connection_that_is_lost_while_it_is_accepted_takes_no_place(mon
         with socket.create_connection(("127.0.0.1", listener.port)) as sock:
             sock.setblocking(False)
             with contextlib.suppress(ConnectionError):
-                async with asyncio.timeout(5):
+                async with asyncio.timeout(30):
                     assert await asyncio.get_running_loop().sock_recv(sock, 1) == b""
         assert (served.count, listener.admission.open) == (1, 0)
 

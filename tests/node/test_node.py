@@ -92,9 +92,9 @@ async def test_roles_are_remapped(make_node):
     listener = await make_node("listener", namespace="ns", remap={"/ns/heard": "/elsewhere"})
     async with talker.advertise("chatter", String) as pub, listener.subscribe("heard") as sub:
         assert pub.name == sub.name == "/elsewhere"
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish(data="found")
-        assert (await sub.get(timeout=5)).data == "found"
+        assert (await sub.get(timeout=30)).data == "found"
 
 
 async def test_private_parameters_of_the_command_line_are_set(make_node):
@@ -146,7 +146,7 @@ async def test_the_one_address_that_is_listened_on_is_told(make_node):
     listener = await make_node("listener")
     async with node.advertise("chatter", String, latch=True) as pub:
         pub.publish(data="hi")
-        assert (await listener.wait_for_message("chatter", String, timeout=5)).data == "hi"
+        assert (await listener.wait_for_message("chatter", String, timeout=30)).data == "hi"
     with pytest.raises(ConnectionRefusedError):
         await asyncio.open_connection("127.0.0.1", node.tcpros_address[1])
     told = await make_node("told", host="localhost", bind="0.0.0.0")
@@ -201,7 +201,7 @@ async def test_events_tell_what_happens(make_node):
     node = await make_node()
     events = node.events()
     async with node.advertise("chatter", String) as pub, node.subscribe("chatter"):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         await node.subscribe_param("/p", default=0)
         await node.set_param("/p", 7)
     await node.close()
@@ -220,11 +220,11 @@ async def test_events_tell_what_happens(make_node):
 async def test_connections_and_stats_count_both_sides(make_node):
     talker, listener = await make_node("talker"), await make_node("listener")
     async with talker.advertise("chatter", String) as pub, listener.subscribe("chatter") as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         for number in range(3):
             pub.publish(data=str(number))
         for _ in range(3):
-            await sub.get(timeout=5)
+            await sub.get(timeout=30)
         (out,), (into,) = pub.connections, sub.connections
         assert (out.peer, out.direction) == ("/listener", "o")
         assert (into.peer, into.direction) == (talker.uri, "i")
@@ -269,7 +269,7 @@ async def test_wait_for_message(make_node):
     node = await make_node()
     async with node.advertise("chatter", String, latch=True) as pub:
         pub.publish(data="latched")
-        assert (await node.wait_for_message("chatter", timeout=5)).data == "latched"
+        assert (await node.wait_for_message("chatter", timeout=30)).data == "latched"
     with pytest.raises(TimeoutError, match="/silent"):
         await node.wait_for_message("silent", String, timeout=0.05)
 
@@ -277,7 +277,7 @@ async def test_wait_for_message(make_node):
 async def test_graph_snapshot_and_changes(make_node):
     node = await make_node("watcher")
     async with node.advertise("chatter", String):
-        graph = await node.graph.wait_for(lambda graph: "/chatter" in graph.topics, timeout=5)
+        graph = await node.graph.wait_for(lambda graph: "/chatter" in graph.topics, timeout=30)
         assert graph.topic_types["/chatter"] == "std_msgs/String"
         assert graph.nodes == {"/watcher"}
         assert graph.publishers == {"/chatter": {"/watcher"}}

@@ -144,7 +144,7 @@ async def test_a_node_starts_and_warns_with_the_words(
 ):
     for variable in ("ROS_HOSTNAME", "ROS_IP"):
         monkeypatch.setenv(variable, variables.get(variable, ""))
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         async with aioros1.Node("demo", master_uri="http://localhost:9", **options) as node:
             assert node.uri.startswith("http://nowhere:")
             while not (found := [each for each in caplog.records if each.name == "ros.demo"]):
@@ -160,6 +160,6 @@ async def test_a_slow_look_up_delays_neither_start_nor_end(names, monkeypatch):
         raise AssertionError
 
     monkeypatch.setattr(own_address, "resolve", resolve)
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         async with aioros1.Node("demo", master_uri="http://localhost:9", host="nowhere"):
             pass

@@ -23,14 +23,14 @@ async def watched(make_node, master):
     await teller.set_param("/enable_statistics", True)
     node = await make_node("watched", use_sim_time=True)
     statistics = await teller.subscribe("/statistics", TopicStatistics)
-    await statistics.wait_for_publishers(timeout=5)
+    await statistics.wait_for_publishers(timeout=30)
     clock = await teller.advertise("/clock", "rosgraph_msgs/Clock")
-    await clock.wait_for_subscribers(timeout=5)
+    await clock.wait_for_subscribers(timeout=30)
 
     async def set_time(seconds: float) -> None:
         wanted = Time.from_sec(seconds)
         clock.publish(clock=wanted)
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             while node.now() != wanted:
                 await asyncio.sleep(0.001)
 
@@ -43,7 +43,7 @@ async def deliver(
 ) -> None:
     for message in messages:
         pub.publish(message)
-        await sub.get(timeout=5)
+        await sub.get(timeout=30)
 
 
 async def test_periods_bytes_and_ages(watched, make_node):
@@ -53,7 +53,7 @@ async def test_periods_bytes_and_ages(watched, make_node):
         other.advertise("points", PointStamped) as pub,
         node.subscribe("points", PointStamped) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         # Before the last one, two did not come.
         for seq, now, age in (
             (1, 1000.0, 0.1),
@@ -66,8 +66,8 @@ async def test_periods_bytes_and_ages(watched, make_node):
                 {"header": {"seq": seq, "stamp": Time.from_sec(now - age)}}
             )
             pub.publish_raw(message.to_bytes())
-            await sub.get(timeout=5)
-        got = await statistics.get(timeout=5)
+            await sub.get(timeout=30)
+        got = await statistics.get(timeout=30)
     assert (got.topic, got.node_pub, got.node_sub) == ("/points", "/other", "/watched")
     assert (got.window_start, got.window_stop) == (Time.from_sec(1000), Time.from_sec(1001))
     assert (got.delivered_msgs, got.dropped_msgs) == (4, 2)
@@ -86,11 +86,11 @@ async def test_messages_without_a_header(watched, make_node):
         other.advertise("chatter", String) as pub,
         node.subscribe("chatter", "*") as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         await deliver(pub, sub, String("a"))
         await set_time(1002)
         await deliver(pub, sub, String("b"))
-        got = await statistics.get(timeout=5)
+        got = await statistics.get(timeout=30)
         assert (got.delivered_msgs, got.dropped_msgs, got.traffic) == (2, 0, 18)
         assert got.period_max == Duration(2)
         assert got.stamp_age_max == Duration()
@@ -98,14 +98,14 @@ async def test_messages_without_a_header(watched, make_node):
         for now in (1003.5, 1004.0):
             await set_time(now)
             await deliver(pub, sub, String("c"))
-        got = await statistics.get(timeout=5)
+        got = await statistics.get(timeout=30)
         assert (got.delivered_msgs, got.window_stop) == (2, Time(1004))
 
 
 async def test_nothing_is_published_unless_it_is_asked_for(make_node):
     node = await make_node("node")
     async with node.advertise("chatter", String) as pub, node.subscribe("chatter", String) as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         await deliver(pub, sub, String("a"))
         state = await node.master.get_system_state()
     assert "/statistics" not in state.publishers

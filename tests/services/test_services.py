@@ -77,30 +77,30 @@ async def test_one_name_is_provided_once_by_a_node(make_node):
         with pytest.raises(ValueError, match="provides service /flip already"):
             await node.advertise_service("flip", SetBool, lambda request: None)
     async with node.advertise_service("flip", SetBool, lambda request: {"success": True}):
-        assert (await node.call("flip", SetBool, data=True, timeout=5)).success
+        assert (await node.call("flip", SetBool, data=True, timeout=30)).success
 
 
 async def test_a_persistent_caller_finds_a_provider_that_was_restarted(make_node):
     node, other = await make_node(), await make_node("other")
-    async with node.service_caller("flip", SetBool, persistent=True, timeout=5) as caller:
+    async with node.service_caller("flip", SetBool, persistent=True, timeout=30) as caller:
         async with node.advertise_service("flip", SetBool, lambda request: {"message": "old"}):
             assert (await caller.call(data=True)).message == "old"
         with pytest.raises(aioros1.ServiceNotFound):
             await caller.call(data=True)
         async with other.advertise_service("flip", SetBool, lambda request: {"message": "new"}):
-            await caller.wait_for_service(timeout=5)
+            await caller.wait_for_service(timeout=30)
             assert (await caller(data=True)).message == "new"
             assert caller.provider_uri == other.tcpros_uri
 
 
 async def test_an_idle_caller_notices_that_its_provider_is_gone(make_node):
     node, other = await make_node(), await make_node("other")
-    async with node.service_caller("flip", SetBool, persistent=True, timeout=5) as caller:
+    async with node.service_caller("flip", SetBool, persistent=True, timeout=30) as caller:
         async with other.advertise_service("flip", SetBool, lambda request: {"success": True}):
             await caller.call(data=True)
             (connection,) = caller.connections
             events = node.events()
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             async for event in events:
                 if isinstance(event, aioros1.PeerDisconnected):
                     break

@@ -22,11 +22,11 @@ async def test_call_needs_no_type(make_node):
     async with (await make_node("server")).advertise_service("/robot/flip", SetBool, flip):
         assert await node.service_type("flip") == "std_srvs/SetBool"
         for arguments in [("flip",), ("/robot/flip", "*")]:
-            reply = await node.call(*arguments, data=True, timeout=5)
+            reply = await node.call(*arguments, data=True, timeout=30)
             assert isinstance(reply, SetBool.Response)
             assert (reply.success, reply.message) == (True, "flipped")
-        assert not (await node.call("flip", "*", {"data": False}, timeout=5)).success
-        assert (await node.call("flip", "*", SetBool.Request(data=True), timeout=5)).success
+        assert not (await node.call("flip", "*", {"data": False}, timeout=30)).success
+        assert (await node.call("flip", "*", SetBool.Request(data=True), timeout=30)).success
 
 
 @pytest.mark.parametrize("persistent", [False, True])
@@ -34,7 +34,7 @@ async def test_a_caller_takes_the_type_of_the_provider(make_node, persistent):
     node = await make_node()
     async with (
         node.advertise_service("flip", SetBool, flip) as provider,
-        node.service_caller("flip", persistent=persistent, timeout=5) as caller,
+        node.service_caller("flip", persistent=persistent, timeout=30) as caller,
     ):
         assert provider.stats.messages == 0  # a question is no call
         assert (caller.type, caller.md5sum) == (SetBool._type, SetBool._md5sum)
@@ -51,7 +51,7 @@ async def test_definitions_of_the_nodes_own_store(master):
         aioros1.Node("arm", master_uri=master.uri, host="localhost", store=store) as node,
         node.advertise_service("grip", "arm_srvs/Grip", lambda request: {"done": True}),
     ):
-        assert (await node.call("grip", force=0.5, timeout=5)).done
+        assert (await node.call("grip", force=0.5, timeout=30)).done
 
 
 async def test_a_definition_that_is_not_here(make_node, tmp_path):
@@ -62,7 +62,7 @@ async def test_a_definition_that_is_not_here(make_node, tmp_path):
     async with server.advertise_service("grip", "arm_srvs/Grip", lambda request: None):
         assert await client.service_type("grip") == "arm_srvs/Grip"
         with pytest.raises(aioros1.MessageNotFoundError) as caught:
-            await client.call("grip", force=0.5, timeout=5)
+            await client.call("grip", force=0.5, timeout=30)
         for part in ("service /grip of /arm", "arm_srvs/Grip", "searched", str(tmp_path)):
             assert part in str(caught.value)
 
@@ -82,7 +82,7 @@ async def test_another_definition_than_the_providers(make_node):
 
 async def test_no_provider(make_node):
     node = await make_node()
-    for ask in (node.service_type("nobody"), node.call("nobody", timeout=5)):
+    for ask in (node.service_type("nobody"), node.call("nobody", timeout=30)):
         with pytest.raises(aioros1.ServiceNotFound, match="/nobody"):
             await ask
     with pytest.raises(aioros1.InvalidNameError, match="'a b'"):
@@ -93,11 +93,11 @@ async def test_a_provider_of_another_type_comes_after(make_node):
     """A caller keeps the type that it was opened with."""
     node = await make_node()
     async with node.advertise_service("flip", SetBool, flip):
-        caller = await node.service_caller("flip", timeout=5)
+        caller = await node.service_caller("flip", timeout=30)
     async with node.advertise_service("flip", Trigger, lambda request: {"message": "new"}):
         with pytest.raises(aioros1.HandshakeError, match="md5sum"):
             await caller(data=True)
-        assert (await node.call("flip", timeout=5)).message == "new"
+        assert (await node.call("flip", timeout=30)).message == "new"
 
 
 # --------------------------------------------------------------------------- strange providers
@@ -138,7 +138,7 @@ async def provider_that_says(node: aioros1.Node, *rows: str | None) -> AsyncIter
 async def test_what_is_no_type(make_node, type):
     node = await make_node()
     async with provider_that_says(node, "callerid=/strange", f"type={type}", "md5sum=*"):
-        for ask in (node.service_type("odd"), node.call("odd", timeout=5)):
+        for ask in (node.service_type("odd"), node.call("odd", timeout=30)):
             with pytest.raises(aioros1.HandshakeError) as caught:
                 await ask
             assert "/odd of /strange: expected its type as package/Type" in str(caught.value)
@@ -175,7 +175,7 @@ async def test_closing_the_node_ends_the_question(make_node, ask):
             return await asking
 
         task = asyncio.create_task(wait())
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             await asked.wait()
             await node.close()
             with pytest.raises(aioros1.ClosedError):

@@ -13,7 +13,7 @@ import aioros1
 
 ROOT = Path(aioros1.__file__).parents[1]
 ASYNCIO = "pytest_asyncio.plugin"
-PATIENCE = 50
+PATIENCE = 150
 
 # What is left on purpose is not waited for as long.
 IMPATIENT = """
@@ -75,7 +75,7 @@ async def test_nodes(ros_node, make_node):
         other.subscribe("/news", "std_msgs/String") as sub,
     ):
         pub.publish(data="hello")
-        assert (await sub.get(timeout=5)).data == "hello"
+        assert (await sub.get(timeout=30)).data == "hello"
 
 @pytest.mark.asyncio
 async def test_clock(ros_node, ros_clock, no_leaks):

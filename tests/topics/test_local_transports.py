@@ -74,8 +74,8 @@ async def test_the_transport_is_told(nodes, transport, ask):
         talker.advertise("chatter", String) as pub,
         listener.subscribe("chatter", String) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
-        await sub.wait_for_publishers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
+        await sub.wait_for_publishers(timeout=30)
         name = NAMES[transport]
         assert [info.transport for info in pub.connections] == [name]
         assert [info.transport for info in sub.connections] == [name]
@@ -84,7 +84,7 @@ async def test_the_transport_is_told(nodes, transport, ask):
                 assert event.connection.transport == name
                 break
         pub.publish(data="hi")
-        assert (await sub.get(timeout=5)).data == "hi"
+        assert (await sub.get(timeout=30)).data == "hi"
         for node, peer, direction in ((talker, "/listener", "o"), (listener, talker.uri, "i")):
             _, _, rows = await ask(node, "getBusInfo")
             [row] = [row for row in rows if row[4] == "/chatter"]
@@ -111,7 +111,7 @@ async def test_order_and_nothing_lost(nodes):
         talker.advertise("n", Int32, queue_size=50, overflow="block") as pub,
         listener.subscribe("n", Int32, queue_size=30, overflow="block") as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
 
         async def send() -> None:
             for i in range(count):
@@ -133,12 +133,12 @@ async def test_messages_of_all_sizes(nodes, views):
         talker.advertise("bytes", "std_msgs/UInt8MultiArray", queue_size=len(sizes)) as pub,
         listener.subscribe("bytes", queue_size=len(sizes), views=views) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         payloads = [os.urandom(size) for size in sizes]
         for payload in payloads:
             pub.publish(data=payload)
         for payload in payloads:
-            assert bytes((await sub.get(timeout=5)).data) == payload
+            assert bytes((await sub.get(timeout=30)).data) == payload
 
 
 async def test_a_message_does_not_change_with_what_it_was_made_of(nodes):
@@ -147,13 +147,13 @@ async def test_a_message_does_not_change_with_what_it_was_made_of(nodes):
         talker.advertise("bytes", "std_msgs/UInt8MultiArray") as pub,
         listener.subscribe("bytes", views=True) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         payload = bytearray(200_000)
         pub.publish(data=payload)
         pub.publish_raw(raw := bytearray(12) + bytearray(100))
         payload[:] = b"x" * len(payload)
         raw[:] = b"x" * len(raw)
-        assert bytes((await sub.get(timeout=5)).data) == bytes(200_000)
+        assert bytes((await sub.get(timeout=30)).data) == bytes(200_000)
 
 
 async def test_a_latched_message_comes_first(nodes):
@@ -161,11 +161,11 @@ async def test_a_latched_message_comes_first(nodes):
     async with talker.advertise("map", String, latch=True) as pub:
         pub.publish(data="latched" * 20_000)
         async with listener.subscribe("map", String) as sub:
-            assert (await sub.get(timeout=5)).data == "latched" * 20_000
+            assert (await sub.get(timeout=30)).data == "latched" * 20_000
             pub.publish(data="next")
-            assert (await sub.get(timeout=5)).data == "next"
+            assert (await sub.get(timeout=30)).data == "next"
             async with listener.subscribe("map", String) as late:
-                assert (await late.get(timeout=5)).data == "next"
+                assert (await late.get(timeout=30)).data == "next"
 
 
 @pytest.mark.parametrize(
@@ -177,7 +177,7 @@ async def test_a_subscriber_drops_by_its_own_policy(nodes, overflow, kept):
         talker.advertise("n", Int32, queue_size=100) as pub,
         listener.subscribe("n", Int32, queue_size=3, overflow=overflow) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         for i in range(10):
             pub.publish(data=i)
         await until(lambda: sub.stats.messages == 10)
@@ -192,7 +192,7 @@ async def test_a_full_subscriber_makes_a_blocking_publisher_wait(nodes):
         talker.advertise("big", "std_msgs/UInt8MultiArray", overflow="block", queue_size=2) as pub,
         listener.subscribe("big", overflow="block", queue_size=1) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         sent = 0
         async with asyncio.timeout(10):
             with pytest.raises(asyncio.QueueFull):
@@ -204,10 +204,10 @@ async def test_a_full_subscriber_makes_a_blocking_publisher_wait(nodes):
         with pytest.raises(TimeoutError):
             await pub.drain(timeout=0.01)
         for i in range(sent):
-            assert len((await sub.get(timeout=5)).data) == 100_000 + i
-        await pub.send(data=b"last", timeout=5)
-        assert (await sub.get(timeout=5)).data == b"last"
-        await pub.drain(timeout=5)
+            assert len((await sub.get(timeout=30)).data) == 100_000 + i
+        await pub.send(data=b"last", timeout=30)
+        assert (await sub.get(timeout=30)).data == b"last"
+        await pub.drain(timeout=30)
 
 
 @pytest.mark.parametrize(
@@ -221,7 +221,7 @@ async def test_a_publisher_drops_for_a_connection_that_takes_nothing(nodes, over
         listener.subscribe("big", overflow="block", queue_size=1) as sub,
         listener.subscribe("big") as other,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         sent = 0
         async with asyncio.timeout(10):
             while not pub.dropped:
@@ -230,7 +230,7 @@ async def test_a_publisher_drops_for_a_connection_that_takes_nothing(nodes, over
                 await asyncio.sleep(0)
         assert pub.connections[0].stats.dropped == pub.dropped == 1
         numbers = [
-            int.from_bytes((await sub.get(timeout=5)).data[:4], "little") for _ in range(sent - 1)
+            int.from_bytes((await sub.get(timeout=30)).data[:4], "little") for _ in range(sent - 1)
         ]
         expected = list(range(sent))
         expected.remove(sent - 4 if kept == "the last" else sent - 1)
@@ -248,11 +248,11 @@ async def test_one_that_takes_nothing_for_too_long_is_cut_off_and_no_other(
         stuck.subscribe("big", overflow="block", queue_size=1),
         lively.subscribe("big") as sub,
     ):
-        await pub.wait_for_subscribers(2, timeout=5)
+        await pub.wait_for_subscribers(2, timeout=30)
         async with asyncio.timeout(20):
             while pub.subscriber_count == 2:
                 pub.publish(data=bytes(100_000))
-                await sub.get(timeout=5)
+                await sub.get(timeout=30)
                 await asyncio.sleep(0)  # within a process, it may be there already
         assert [info.peer for info in pub.connections] == ["/lively"]
         assert "/stuck was cut off" in caplog.text
@@ -263,9 +263,9 @@ async def test_unsubscribing_and_subscribing_again(nodes):
     async with talker.advertise("chatter", String) as pub:
         for attempt in range(3):
             async with listener.subscribe("chatter", String) as sub:
-                await pub.wait_for_subscribers(timeout=5)
+                await pub.wait_for_subscribers(timeout=30)
                 pub.publish(data=str(attempt))
-                assert (await sub.get(timeout=5)).data == str(attempt)
+                assert (await sub.get(timeout=30)).data == str(attempt)
             await until(lambda: pub.subscriber_count == 0)
 
 
@@ -274,11 +274,11 @@ async def test_advertising_again(nodes, transport):
     async with listener.subscribe("chatter", String) as sub:
         for attempt in range(3):
             async with talker.advertise("chatter", String) as pub:
-                await pub.wait_for_subscribers(timeout=5)
+                await pub.wait_for_subscribers(timeout=30)
                 assert pub.connections[0].transport == NAMES[transport]
                 pub.publish(data=str(attempt))
             # Closing has sent it first.
-            assert (await sub.get(timeout=5)).data == str(attempt)
+            assert (await sub.get(timeout=30)).data == str(attempt)
             await until(lambda: sub.publisher_count == 0)
 
 
@@ -287,25 +287,25 @@ async def test_the_death_of_either_side(nodes, make_node, transport, side):
     talker, listener = nodes
     pub = await talker.advertise("chatter", String)
     sub = await listener.subscribe("chatter", String)
-    await pub.wait_for_subscribers(timeout=5)
-    await sub.wait_for_publishers(timeout=5)
+    await pub.wait_for_subscribers(timeout=30)
+    await sub.wait_for_publishers(timeout=30)
     if side == "talker":
         talker.abort()
         await until(lambda: sub.publisher_count == 0)
         again = await make_node("talker", **using(transport))
         async with again.advertise("chatter", String) as pub:
-            await pub.wait_for_subscribers(timeout=5)
+            await pub.wait_for_subscribers(timeout=30)
             pub.publish(data="again")
-            assert (await sub.get(timeout=5)).data == "again"
+            assert (await sub.get(timeout=30)).data == "again"
     else:
         listener.abort()
         await until(lambda: pub.subscriber_count == 0)
         pub.publish(data="to nobody")
         again = await make_node("listener", **using(transport))
         async with again.subscribe("chatter", String) as sub:
-            await pub.wait_for_subscribers(timeout=5)
+            await pub.wait_for_subscribers(timeout=30)
             pub.publish(data="again")
-            assert (await sub.get(timeout=5)).data == "again"
+            assert (await sub.get(timeout=30)).data == "again"
 
 
 async def test_another_definition_is_refused_with_a_reason(nodes, caplog):
@@ -324,7 +324,7 @@ async def test_connections_count_against_the_limit(make_node, transport):
         pub = await stack.enter_async_context(talker.advertise("chatter", String))
         first, second = [await make_node(name, **using(transport)) for name in ("one", "two")]
         await stack.enter_async_context(first.subscribe("chatter", String))
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         await stack.enter_async_context(second.subscribe("chatter", String))
         await until(lambda: talker.stats.connections_refused)
         assert pub.subscriber_count == 1
@@ -340,11 +340,11 @@ async def test_a_message_beyond_the_limit_closes_the_connection(make_node, trans
         talker.advertise("chatter", String) as pub,
         listener.subscribe("chatter", String) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish(data="fits")
         pub.publish(data="x" * 1000)
-        assert (await sub.get(timeout=5)).data == "fits"
-        async with asyncio.timeout(5):
+        assert (await sub.get(timeout=30)).data == "fits"
+        async with asyncio.timeout(30):
             async for event in events:
                 if isinstance(event, aioros1.PeerDisconnected):
                     assert "1004 bytes" in event.reason
@@ -361,21 +361,21 @@ async def test_many_subscribers(nodes, make_node, transport):
             subs.append(
                 await stack.enter_async_context(node.subscribe("n", Int32, queue_size=1000))
             )
-        await pub.wait_for_subscribers(20, timeout=5)
+        await pub.wait_for_subscribers(20, timeout=30)
         for i in range(1000):
             pub.publish(data=i)
         for sub in subs:
-            assert [(await sub.get(timeout=5)).data for _ in range(1000)] == list(range(1000))
+            assert [(await sub.get(timeout=30)).data for _ in range(1000)] == list(range(1000))
 
 
 async def test_a_node_that_hears_itself(make_node, transport):
     node = await make_node("node", **using(transport))
     async with node.advertise("n", Int32) as pub, node.subscribe("n", Int32) as sub:
-        await pub.wait_for_subscribers(timeout=5)
-        await sub.wait_for_publishers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
+        await sub.wait_for_publishers(timeout=30)
         assert pub.connections[0].transport == sub.connections[0].transport == NAMES[transport]
         pub.publish(data=1)
-        assert (await sub.get(timeout=5)).data == 1
+        assert (await sub.get(timeout=30)).data == 1
 
 
 async def test_publishing_in_answer_to_a_message_is_no_recursion(nodes):
@@ -386,8 +386,8 @@ async def test_publishing_in_answer_to_a_message_is_no_recursion(nodes):
         listener.advertise("pong", Int32) as pong,
         talker.subscribe("pong", Int32) as answers,
     ):
-        await ping.wait_for_subscribers(timeout=5)
-        await pong.wait_for_subscribers(timeout=5)
+        await ping.wait_for_subscribers(timeout=30)
+        await pong.wait_for_subscribers(timeout=30)
 
         async def answer() -> None:
             async for message in heard:
@@ -409,9 +409,9 @@ async def test_publishing_in_answer_to_a_message_is_no_recursion(nodes):
 
 async def transport_between(one: aioros1.Node, other: aioros1.Node) -> str:
     async with one.advertise("chatter", String) as pub, other.subscribe("chatter", String) as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish(data="hi")
-        assert (await sub.get(timeout=5)).data == "hi"
+        assert (await sub.get(timeout=30)).data == "hi"
         assert pub.connections[0].transport == sub.connections[0].transport
         return sub.connections[0].transport
 
@@ -464,7 +464,7 @@ async def test_another_loop_of_the_process_is_another_place(make_node, master):
 
     async with listener.subscribe("chatter", String) as sub:
         talking = asyncio.create_task(asyncio.to_thread(lambda: asyncio.run(talk())))
-        assert (await sub.get(timeout=5)).data == "from another loop"
+        assert (await sub.get(timeout=30)).data == "from another loop"
         assert sub.connections[0].transport == "TCPROS"
         stop.set()
         await talking

@@ -17,12 +17,12 @@ async def topics(make_node):
     pubs = [await talker.advertise("a", String), await talker.advertise("b", Int32)]
     subs = [await listener.subscribe("a", String), await listener.subscribe("b", Int32)]
     for pub in pubs:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
     return pubs, subs
 
 
 async def until(condition):
-    async with asyncio.timeout(5):
+    async with asyncio.timeout(30):
         while not condition():
             await asyncio.sleep(0.001)
 
@@ -53,7 +53,7 @@ async def test_whoever_waits_is_woken_by_any_of_them(topics):
         waiting = asyncio.create_task(anext(merged))
         await asyncio.sleep(0)
         pub.publish(data=data)
-        name, message = await asyncio.wait_for(waiting, 5)
+        name, message = await asyncio.wait_for(waiting, 30)
         assert (name, message.data) == (topic, data)
 
 
@@ -65,7 +65,7 @@ async def test_nothing_is_lost_when_it_is_cancelled(topics):
     a.publish(data="kept")
     waiting.cancel()
     await asyncio.gather(waiting, return_exceptions=True)
-    _, message = await asyncio.wait_for(anext(merged), 5)
+    _, message = await asyncio.wait_for(anext(merged), 30)
     assert message.data == "kept"
 
 
@@ -85,7 +85,7 @@ async def test_it_ends_with_the_last_of_them(topics):
     await until(lambda: got == ["one", 2])
     assert not receiving.done()
     await subs[1].close()
-    await asyncio.wait_for(receiving, 5)
+    await asyncio.wait_for(receiving, 30)
 
 
 async def test_a_message_that_cannot_be_decoded_is_skipped(topics):
@@ -93,7 +93,7 @@ async def test_a_message_that_cannot_be_decoded_is_skipped(topics):
     a.publish_raw(b"\xff\xff\xff\xff")
     await until(lambda: subs[0].queued == 1)
     b.publish(data=1)
-    topic, message = await asyncio.wait_for(anext(aioros1.merge(*subs)), 5)
+    topic, message = await asyncio.wait_for(anext(aioros1.merge(*subs)), 30)
     assert (topic, message.data) == ("/b", 1)
     assert subs[0].stats.errors == 1
 

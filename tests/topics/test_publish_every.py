@@ -13,7 +13,7 @@ from aioros1.msg.std_msgs import Int32, String
 
 
 async def take(sub, count):
-    return [await sub.get(timeout=5) for _ in range(count)]
+    return [await sub.get(timeout=30) for _ in range(count)]
 
 
 async def test_the_same_message_as_it_is_at_each_moment(make_node):
@@ -22,13 +22,13 @@ async def test_the_same_message_as_it_is_at_each_moment(make_node):
         node.advertise("point", PointStamped) as pub,
         node.subscribe("point", PointStamped) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         message = PointStamped()
         timer = pub.publish_every(0.01, message)
         first, second = await take(sub, 2)
         assert (first.header.seq, second.header.seq) == (1, 2)
         message.point.x = 5.0
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(30):
             while (await sub.get()).point.x != 5.0:
                 pass
         timer.cancel()
@@ -49,7 +49,7 @@ async def test_what_a_function_gives(make_node, kind):
         return make(now)
 
     async with node.advertise("number", Int32) as pub, node.subscribe("number", Int32) as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         timer = pub.publish_every(0.005, make if kind == "function" else make_slowly)
         assert [message.data for message in await take(sub, 3)] == [0, 2, 4]
         timer.cancel()
@@ -58,7 +58,7 @@ async def test_what_a_function_gives(make_node, kind):
 async def test_fields(make_node):
     node = await make_node("node")
     async with node.advertise("chatter", String) as pub, node.subscribe("chatter", String) as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish_every(0.01, data="again")
         assert [message.data for message in await take(sub, 2)] == ["again", "again"]
 
@@ -92,7 +92,7 @@ async def test_it_waits_for_room_where_nothing_may_be_dropped(make_node):
         talker.advertise("chatter", String, **options) as pub,
         listener.subscribe("chatter", String, **options) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         numbers = iter(range(1000))
         text = "x" * 1_000_000
         pub.publish_every(0.001, lambda now: String(f"{next(numbers)} {text}"))

@@ -13,9 +13,9 @@ from aioros1.msg.std_msgs import String
 async def test_a_message_reaches_a_subscriber(make_node):
     node = await make_node()
     async with node.advertise("chatter", String) as pub, node.subscribe("chatter") as sub:
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish(data="hi")
-        assert await sub.get(timeout=5) == String(data="hi")
+        assert await sub.get(timeout=30) == String(data="hi")
 
 
 async def test_blocked_publisher_raises_queue_full_and_send_waits(make_node):
@@ -24,7 +24,7 @@ async def test_blocked_publisher_raises_queue_full_and_send_waits(make_node):
         node.advertise("big", "std_msgs/UInt8MultiArray", overflow="block", queue_size=2) as pub,
         node.subscribe("big", overflow="block", queue_size=1) as sub,
     ):
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         payload = bytes(1_000_000)
         sent = 0
         with pytest.raises(asyncio.QueueFull):
@@ -35,9 +35,9 @@ async def test_blocked_publisher_raises_queue_full_and_send_waits(make_node):
         with pytest.raises(TimeoutError):
             await pub.send(data=payload, timeout=0.01)
         for length in range(sent):
-            assert len((await sub.get(timeout=5)).data) == length + 1000
-        await pub.send(data=b"last", timeout=5)
-        assert (await sub.get(timeout=5)).data == b"last"
+            assert len((await sub.get(timeout=30)).data) == length + 1000
+        await pub.send(data=b"last", timeout=30)
+        assert (await sub.get(timeout=30)).data == b"last"
 
 
 async def test_closed_roles_raise_closed_error(make_node):
@@ -56,11 +56,11 @@ async def test_a_message_may_be_given_by_keyword_unless_that_is_a_field(make_nod
         node.advertise("log", "rosgraph_msgs/Log") as log,
         node.subscribe("log") as logged,
     ):
-        await pub.wait_for_subscribers(timeout=5)
-        await log.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
+        await log.wait_for_subscribers(timeout=30)
         pub.publish(msg=String(data="whole"))
-        assert (await sub.get(timeout=5)).data == "whole"
+        assert (await sub.get(timeout=30)).data == "whole"
         log.publish(msg="a field")
-        assert (await logged.get(timeout=5)).msg == "a field"
+        assert (await logged.get(timeout=30)).msg == "a field"
         with pytest.raises(TypeError, match="a message or fields, got both"):
             pub.publish(String(), data="x")

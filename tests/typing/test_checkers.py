@@ -93,7 +93,6 @@ def check(project: Path, module: str, *words: str) -> subprocess.CompletedProces
     )  # fmt: skip
 
 
-@pytest.mark.timeout(300)
 def test_mypy(project: Path) -> None:
     right = check(project, "mypy", "--strict", "right.py")
     assert right.stdout == "Success: no issues found in 1 source file\n"
@@ -102,7 +101,6 @@ def test_mypy(project: Path) -> None:
     assert lines == ["3", "4", "5"]
 
 
-@pytest.mark.timeout(300)
 def test_pyright(project: Path) -> None:
     words = ["--outputjson", "--pythonpath", sys.executable]
     answer = json.loads(check(project, "pyright", *words, "right.py", "wrong.py").stdout)

@@ -28,12 +28,12 @@ async def test_topics(make_node: MakeNode) -> None:
         assert_type(pub, Publisher[String])
         assert_type(sub, Subscriber[String])
         assert_type(sub.latest, String | None)
-        await pub.wait_for_subscribers(timeout=5)
+        await pub.wait_for_subscribers(timeout=30)
         pub.publish(String(data="1"))
         pub.publish(data="2")
         pub.publish({"data": "3"})
         await pub.send(pub.message(data="4"))
-        assert_type(await sub.get(timeout=5), String)
+        assert_type(await sub.get(timeout=30), String)
         async for message in sub:
             assert_type(message, String)
             assert_type(message.data, str)
@@ -58,21 +58,21 @@ async def test_topics_of_types_that_are_named(make_node: MakeNode) -> None:
     assert_type(await node.subscribe("chatter", "std_msgs/String"), Subscriber[Any])
 
     sub = await node.subscribe("chatter")
-    message = await sub.get(timeout=5)
+    message = await sub.get(timeout=30)
     assert_type(message.to_bytes(), bytes)
     data: str = message.data
     assert data == "hi"
-    assert (await node.wait_for_message("chatter", "*", timeout=5)).data == data
+    assert (await node.wait_for_message("chatter", "*", timeout=30)).data == data
 
     raw = await node.subscribe("chatter", String, raw=True)
     assert_type(raw, Subscriber[bytes])
     assert_type(await node.subscribe("chatter", raw=True), Subscriber[bytes])
-    octets = await raw.get(timeout=5)
+    octets = await raw.get(timeout=30)
     pub.publish_raw(octets)
     assert String.from_bytes(octets).data == data
 
-    assert_type(await node.wait_for_message("chatter", String, timeout=5), String)
-    assert_type(await node.wait_for_message("chatter", "std_msgs/String", timeout=5), Any)
+    assert_type(await node.wait_for_message("chatter", String, timeout=30), String)
+    assert_type(await node.wait_for_message("chatter", "std_msgs/String", timeout=30), Any)
 
 
 async def test_services(make_node: MakeNode) -> None:
@@ -94,18 +94,18 @@ async def test_services(make_node: MakeNode) -> None:
     await node.advertise_service("by_fields", SetBool, by_fields)
     await node.advertise_service("mute", SetBool, lambda request: {"success": request.data})
     for name in ("plain", "waiting", "by_fields", "mute"):
-        reply = await node.call(name, SetBool, data=True, timeout=5)
+        reply = await node.call(name, SetBool, data=True, timeout=30)
         assert_type(reply, SetBool.Response)
         assert reply.success
-    reply = await node.call("plain", SetBool, SetBool.Request(data=False), timeout=5)
+    reply = await node.call("plain", SetBool, SetBool.Request(data=False), timeout=30)
     assert_type(reply.message, str)
-    assert_type(await node.call("plain", "std_srvs/SetBool", {"data": True}, timeout=5), Any)
+    assert_type(await node.call("plain", "std_srvs/SetBool", {"data": True}, timeout=30), Any)
 
     async with node.service_caller("plain", SetBool) as caller:
         assert_type(caller, ServiceCaller[SetBool.Request, SetBool.Response])
         request = caller.request(data=True)
         assert_type(request, SetBool.Request)
-        assert_type(await caller.call(request, timeout=5), SetBool.Response)
+        assert_type(await caller.call(request, timeout=30), SetBool.Response)
         assert_type(await caller(data=True), SetBool.Response)
         assert_type(await caller.send_request({"data": True}), SetBool.Response)
     named = await node.service_caller("plain", "std_srvs/SetBool", persistent=True)
@@ -217,7 +217,7 @@ async def test_composites(make_node: MakeNode) -> None:
 async def test_calls_that_are_answered_later(make_node: MakeNode) -> None:
     node = await make_node()
     async with node.advertise_service("flip", SetBool) as provider:
-        calling = asyncio.create_task(node.call("flip", SetBool, data=True, timeout=5))
+        calling = asyncio.create_task(node.call("flip", SetBool, data=True, timeout=30))
         async for call in provider:
             assert_type(call.request, SetBool.Request)
             await call.reply(SetBool.Response(success=call.request.data))
@@ -260,6 +260,6 @@ async def test_merged_topics(make_node: MakeNode) -> None:
     ):
         pub.publish(data="1")
         merged = aioros1.merge(one, other)
-        topic, message = await asyncio.wait_for(anext(merged), 5)
+        topic, message = await asyncio.wait_for(anext(merged), 30)
         assert_type(topic, str)
         assert_type(message, String | Int32)

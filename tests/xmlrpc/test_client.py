@@ -7,6 +7,7 @@ import gc
 
 import pytest
 
+import aioros1
 from aioros1.net.hosts import bind_sockets
 from aioros1.options import Limits, Timeouts
 from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault, decode_call, encode_response
@@ -239,7 +240,7 @@ async def test_closing_ends_calls_in_progress() -> None:
         await ours.close()
         with pytest.raises(ConnectionError):
             await call
-        with pytest.raises(RuntimeError, match="closed"):
+        with pytest.raises(aioros1.ClosedError, match="closed"):
             await ours.call(uri, "m")
         await ours.close()
 

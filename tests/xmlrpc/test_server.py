@@ -478,7 +478,7 @@ async def test_requests_in_progress_may_finish() -> None:
     async with connected(server) as peer:
         await peer.post(encode_call("method", ()))
         await asked.wait()
-        closing = asyncio.create_task(server.close(timeout=5))
+        closing = asyncio.create_task(server.close(timeout=30))
         await asyncio.sleep(0)
         go.set()
         assert await peer.value() == 5

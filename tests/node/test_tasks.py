@@ -1,0 +1,119 @@
+"""Tasks of a node, errors of the user's code, and jumps of the clock."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+
+import aioros1
+from aioros1.events import ClockJumped
+
+
+async def test_a_task_ends_with_the_node(master):
+    cancelled = asyncio.Event()
+
+    async def run():
+        try:
+            await asyncio.Event().wait()
+        except asyncio.CancelledError:
+            cancelled.set()
+            raise
+
+    async with aioros1.Node("node", master_uri=master.uri, host="localhost") as node:
+        task = node.create_task(run(), name="mine")
+        assert task.get_name() == "mine"
+        await asyncio.sleep(0)
+    assert task.done()
+    assert cancelled.is_set()
+
+
+async def test_a_task_can_be_awaited_and_cancelled(make_node):
+    node = await make_node()
+    got = []
+
+    async def run(item):
+        got.append(item)
+
+    await node.create_task(run(1))
+    assert got == [1]
+    task = node.create_task(asyncio.sleep(3600))
+    await asyncio.sleep(0)
+    task.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await task
+    assert node.is_open
+
+
+async def test_what_a_task_raises_goes_to_on_error(make_node):
+    errors = []
+    node = await make_node(on_error=errors.append)
+
+    async def fail():
+        raise ValueError("no")
+
+    assert await node.create_task(fail()) is None
+    assert str(errors[0]) == "no"
+    node.handle_error(KeyError("mine"), "my callback")
+    assert isinstance(errors[1], KeyError)
+
+
+async def test_an_exception_of_a_task_ends_the_node_by_default(master):
+    async def fail():
+        raise ValueError("no")
+
+    node = aioros1.Node("node", master_uri=master.uri, host="localhost")
+    with pytest.raises(ValueError, match="no"):
+        async with node:
+            node.create_task(fail(), name="mine")
+            await asyncio.Event().wait()
+    assert node.close_reason == "mine failed: ValueError('no')"
+
+
+async def test_a_node_that_is_not_open_takes_no_task(master):
+    node = aioros1.Node("node", master_uri=master.uri)
+    with pytest.raises(aioros1.ClosedError):
+        node.create_task(asyncio.sleep(0))
+
+
+async def test_a_clock_that_goes_backwards_is_an_event(make_node, ros_clock):
+    node = await make_node()
+    assert node.uses_sim_time
+    events = node.events()
+    await ros_clock.set(10)
+    await ros_clock.set(5)
+    await ros_clock.advance(1)
+    await node.close()
+    jumps = [event async for event in events if isinstance(event, ClockJumped)]
+    assert jumps == [ClockJumped(aioros1.Time(10), aioros1.Time(5))]
+
+
+async def test_beginning_and_ceasing_to_follow_the_clock_are_jumps(make_node, master):
+    node = await make_node(heartbeat=0.01)
+    events = node.events()
+    assert not node.uses_sim_time
+    for wanted in (True, False):
+        await node.set_param("/use_sim_time", wanted)
+        async with asyncio.timeout(20):
+            async for event in events:
+                if isinstance(event, ClockJumped):
+                    break
+        assert node.uses_sim_time is wanted
+        zero, other = (event.now, event.before) if wanted else (event.before, event.now)
+        assert zero.is_zero()
+        assert not other.is_zero()
+
+
+async def test_who_drives_the_clock_sees_what_is_awaited(make_node, ros_clock):
+    node = await make_node()
+    assert node.next_wakeup is None
+    sleeping = asyncio.create_task(node.sleep(2))
+    async with asyncio.timeout(20):
+        while node.next_wakeup is None:
+            await asyncio.sleep(0)
+    assert node.next_wakeup == aioros1.Time(3)
+    waiting = asyncio.create_task(node.wait_for_time(aioros1.Time(3)))
+    await ros_clock.advance(2)
+    await asyncio.gather(sleeping, waiting)
+    with pytest.raises(TimeoutError):
+        await node.wait_for_time(aioros1.Time(3, 1), timeout=0.01)
