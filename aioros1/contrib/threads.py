@@ -171,17 +171,13 @@ class NodeThread:
 
         Ends when ``source`` does, or the node.
         """
-        iterator = aiter(source)
-        while True:
-            try:
-                item = self.call(_next, iterator)
-            except ClosedError:
-                if self._is_open:
-                    raise
-                return
-            if item is _END:
-                return
-            yield item
+        try:
+            iterator: AsyncIterator[T] = self.call(aiter, source)
+            while (item := self.call(_next, iterator)) is not _END:
+                yield item
+        except ClosedError:
+            if self._is_open:
+                raise
 
     def deliver(self, source: AsyncIterable[T], function: Callable[[T], object]) -> Future[None]:
         """Call ``function`` with everything that comes from ``source``, in the node's thread.

@@ -94,7 +94,7 @@ class FlakyProxy(Flaky):
         self._entered = False
 
     def __repr__(self) -> str:
-        state = "closed" if self._is_closed else "open" if self._socket is not None else "new"
+        state = "closed" if self._is_closed else "open" if self._entered else "new"
         here, there = host_and_port(*self._own), host_and_port(*self._target)
         return f"<FlakyProxy at {here} before {there}, {state}>"
 
@@ -155,7 +155,10 @@ class FlakyProxy(Flaky):
         """
         while self.accepted < n:
             if self._is_closed:
-                raise ClosedError(f"{self!r} has had {self.accepted} connections, not {n}")
+                raise ClosedError(
+                    f"the proxy at {host_and_port(*self._own)} is closed; "
+                    f"{self.accepted} connections have come, not {n}"
+                )
             await self._came.wait()
 
     def cut(self) -> None:

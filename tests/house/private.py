@@ -59,6 +59,11 @@ _HELPERS = "multiprocessing has no public way to the pipes of the helpers that i
 
 INSIDE_PYTHON = (
     InsidePython(
+        "aioros1.net.coalescing",
+        "_is_owned",
+        "threading.Condition asks it too; there is no public way to tell who holds a lock",
+    ),
+    InsidePython(
         "aioros1.log.node_log",
         "_getframe",
         "documented; there is no public way to the caller's frame that is as cheap",

@@ -104,7 +104,7 @@ async def test_all_addresses_of_the_server_are_tried(ends, server):
         pytest.skip("needs IPv6")
     port = listening.sockets[0].getsockname()[1]
     async with FlakyProxy("localhost", port, listen_host="::1") as proxy:
-        assert repr(proxy) == f"<FlakyProxy at [::1]:{proxy.port} before localhost:{port}>"
+        assert repr(proxy) == f"<FlakyProxy at [::1]:{proxy.port} before localhost:{port}, open>"
         assert await (await ends.pair(proxy)).is_whole()
     listening.close()
 
@@ -113,7 +113,7 @@ async def test_it_listens_where_it_is_told(ends, server):
     async with FlakyProxy("localhost", server.port, listen_host="localhost") as first:
         assert first.host == "127.0.0.1"
         place = f"127.0.0.1:{first.port}"
-        assert repr(first) == f"<FlakyProxy at {place} before localhost:{server.port}>"
+        assert repr(first) == f"<FlakyProxy at {place} before localhost:{server.port}, open>"
         with pytest.raises(OSError, match=f"cannot listen on {place}: .+"):
             async with FlakyProxy("127.0.0.1", server.port, listen_port=first.port):
                 pass
