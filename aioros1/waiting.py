@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from asyncio import _get_running_loop
 from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Self
@@ -20,7 +21,8 @@ class Waiters:
     __slots__ = ("_error", "_futures", "_loop")
 
     def __init__(self) -> None:
-        self._loop: asyncio.AbstractEventLoop | None = None  # asked for once: it takes a while
+        # Asked for once, as it takes a while. Who waits in another loop gets an error.
+        self._loop = _get_running_loop()
         self._futures: set[asyncio.Future[None]] = set()
         self._error: BaseException | None = None
 

@@ -145,6 +145,14 @@ class Context:
         if self._supervisor.state != "new":
             self.loop_state.check_thread(f"node {self.name}")
 
+    def check_iterator(self) -> None:
+        """Raise :class:`RuntimeError` in another event loop than the node's.
+
+        A thread without one may make iterators and hand them over to the node's loop.
+        """
+        if _get_running_loop() is not None:
+            self.check_loop()
+
     async def admit(self, member: M, abort: Callable[[], None]) -> M:
         """Hand out what was opened, unless the node was closed meanwhile.
 

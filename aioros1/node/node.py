@@ -402,7 +402,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     def events(self) -> EventStream[Event]:
         """Iterate over what happens to the node from now on; ends with the node."""
-        self._context.check_loop()
+        self._context.check_iterator()
         return self._events.subscribe()
 
     # tasks
@@ -476,7 +476,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
         Raises :class:`ValueError` for a rate that is not positive.
         """
-        self._context.check_loop()
+        self._context.check_iterator()
         return Rate(self._context.clock, period_of(hz))
 
     def timer(

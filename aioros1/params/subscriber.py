@@ -48,7 +48,7 @@ class ParamSubscriber(Role):
         return copy.deepcopy(value)
 
     def __aiter__(self) -> Self:
-        self._context.check_loop()
+        self._context.check_iterator()
         return self
 
     async def __anext__(self) -> ParamUpdate:

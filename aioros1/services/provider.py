@@ -95,7 +95,7 @@ class ServiceProvider(Role, Generic[Q, A]):
     def __aiter__(self) -> Self:
         if self.handler is not None:
             raise TypeError(f"service {self.name} has a handler, which takes all calls")
-        self._context.check_loop()
+        self._context.check_iterator()
         return self
 
     async def __anext__(self) -> ServiceCall[Q, A]:

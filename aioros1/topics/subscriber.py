@@ -316,7 +316,7 @@ class Subscriber(Role, Generic[M]):
     def _check_queued(self) -> None:
         if self.callback is not None:
             raise TypeError(f"subscriber {self.name} has a callback, which gets all messages")
-        self._context.check_loop()
+        self._context.check_iterator()
 
     def _take(self) -> Received | None:
         if not self._queue and self._backlog:

@@ -96,8 +96,8 @@ async def test_publishing_while_a_burst_is_collected(make_node):
         lambda node: asyncio.run(node.wait_closed()),
         lambda node: asyncio.run(node.master.get_pid()),
         lambda node: asyncio.run(node.graph.snapshot()),
-        lambda node: node.events(),
-        lambda node: node.rate(1),
+        lambda node: asyncio.run(_call(node.events)),
+        lambda node: asyncio.run(_call(node.rate, 1)),
         lambda node: node.timer(1, print),
         lambda node: node.create_task(asyncio.sleep(0)),
     ],
@@ -126,8 +126,8 @@ async def test_roles(make_node):
             lambda: asyncio.run(pub.drain()),
             lambda: asyncio.run(sub.get()),
             lambda: sub.get_nowait(),
-            lambda: aiter(sub),
-            lambda: sub.events(),
+            lambda: asyncio.run(_call(aiter, sub)),
+            lambda: asyncio.run(_call(sub.events)),
             timer.cancel,
             lambda: asyncio.run(caller.call(data=True)),
             *(lambda role=role: asyncio.run(role.close()) for role in (pub, sub, provider, caller)),
@@ -141,3 +141,7 @@ async def test_roles(make_node):
 
 async def _open(opening):
     await opening
+
+
+async def _call(function, *args):
+    function(*args)
