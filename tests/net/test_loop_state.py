@@ -60,7 +60,7 @@ def test_a_new_loop_has_a_new_state(make_loop: MakeLoop) -> None:
         tokens.add(run(loop).token)
         loop.close()
         del loop
-        gc.collect()
+        gc.collect(0)
     assert len(tokens) == 20
 
 
