@@ -72,7 +72,9 @@ class Acceptor:
             assert serve is not None
             await serve(stream, server)
         except HandshakeError as error:
-            context.log.warning("refused a connection of %s", error)
+            # Who comes while the node closes has not heard of it yet.
+            log = context.log.warning if context.is_open else context.log.debug
+            log("refused a connection of %s", error)
             await self._refuse(stream, server.refuse(error.text))
         except TimeoutError as error:
             context.log.warning("refused a connection: %s", error)

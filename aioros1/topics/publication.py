@@ -208,6 +208,10 @@ class Publication(Shared[Publishing]):
         stream.writer.write(answer)
         await take_over(stream, link)
         self._add(link)
+        if not self.roles:
+            # The last publisher is being closed, and the master has not told the subscriber
+            # yet: it has come for nothing, but nothing is wrong.
+            link.close()
         try:
             await link.wait_closed()
         finally:

@@ -100,9 +100,9 @@ class Topics:
             subscription.on_received = on_received
 
     def published(self, topic: str) -> Publication | None:
-        """The publication of a topic that has publishers."""
-        publication = self.publications.get(topic)
-        return publication if publication is not None and publication.roles else None
+        """The publication of a topic, from its first publisher until the master was told of
+        the end of the last."""
+        return self.publications.get(topic)
 
     def abort(self) -> None:
         """Drop all connections at once."""

@@ -412,3 +412,21 @@ def test_a_node_that_was_never_closed_is_warned_of_and_freed(filter_):
     )
     assert "node /n was never closed" in result.stderr
     assert result.stdout.split() == ["closed", "False"]
+
+
+async def test_a_subscriber_that_comes_while_the_topic_closes_is_not_refused(make_node, caplog):
+    """To the graph it is still published: the master has not been told yet."""
+    node = await make_node(timeouts=aioros1.Timeouts(close=30, stall=60))
+    pub = await node.advertise("chatter", String, queue_size=100)
+    async with dialled(node, subscriber_header()) as stuck:
+        await until(lambda: pub.subscriber_count == 1)
+        for _ in range(20):
+            pub.publish(data="x" * (1 << 20))  # more than the kernel takes
+        closing = asyncio.create_task(pub.close())
+        await until(lambda: not pub.is_open)
+        async with dialled(node, subscriber_header()) as late:
+            assert "error" not in await late.read_header()
+            assert await late.reader.read() == b""
+        stuck.abort()
+        await closing
+    assert not caplog.records
