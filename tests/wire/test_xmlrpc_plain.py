@@ -132,7 +132,7 @@ def test_what_is_taken(values: list[Any]) -> None:
         xmlrpc.client.dumps(([1, "ok", []],), methodresponse=True).encode(),
     ],
 )
-def test_answers_of_the_programs_of_ROS_1_are_taken(document: bytes) -> None:
+def test_answers_of_real_programs_are_taken(document: bytes) -> None:
     assert read_plain(document, "methodResponse", MAX_DEPTH, MAX_VALUES) == (None, [[1, "ok", []]])
     assert decode_response(document) == [1, "ok", []]
 
