@@ -28,6 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from os import PathLike
+from typing import Self
 
 from aioros1._public import public
 
@@ -145,6 +146,9 @@ class MasterUnreachable(MasterError, ConnectionError):
     def __init__(self, status: str) -> None:
         super().__init__(-1, status, is_refusal=False)
 
+    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
+        return type(self), (self.status,)
+
     def __str__(self) -> str:
         return self.status
 
@@ -173,6 +177,9 @@ class PeerUnreachable(PeerError, ConnectionError):
 
     def __init__(self, status: str) -> None:
         super().__init__(-1, status, is_refusal=False)
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
+        return type(self), (self.status,)
 
     def __str__(self) -> str:
         return self.status

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from aioros1 import names
 from aioros1.core.connections import Connections
+from aioros1.core.user_errors import is_end
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, Event
 
@@ -172,5 +173,9 @@ class Context:
         self.log.error("%s failed: %r", what, error, exc_info=error)
 
     def user_error(self, error: Exception, what: str) -> None:
-        """Treat an exception of the user's code as ``on_error`` of the node says."""
-        self._user_errors.handle(error, what)
+        """Treat an exception of the user's code as ``on_error`` of the node says.
+
+        That a node or a role is closed is no error any more once the node closes.
+        """
+        if self.is_open or not is_end(error):
+            self._user_errors.handle(error, what)

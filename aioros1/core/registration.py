@@ -183,7 +183,10 @@ class Registration:
     async def _tell_all(self, work: asyncio.Future[tuple[bool, Exception | None]]) -> None:
         """Tell the master until it knows what it should, or something fails."""
         wanted, failure = self._is_wanted, None
-        while failure is None and self._is_at_master is not (wanted := self._is_wanted):
+        # What is outdated is told again, even if it is still wanted as it was told.
+        while failure is None and (
+            self._is_at_master is not (wanted := self._is_wanted) or self._is_outdated
+        ):
             failure = await self._tell(wanted)
         self._work = None
         work.set_result((wanted, failure))

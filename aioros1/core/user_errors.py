@@ -6,10 +6,36 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
+from aioros1.errors import ClosedError
 from aioros1.log.node_log import NodeLog
 from aioros1.options import OnError
 
-__all__ = ["UserErrors"]
+__all__ = ["UserErrors", "is_end", "reportable"]
+
+
+def reportable(error: BaseException) -> Exception | None:
+    """What to report of an exception of the user's code; None if it is to be raised on.
+
+    A cancellation is the task's own only if somebody has cancelled that; otherwise it comes
+    out of something that was awaited, and is an error like others.
+    """
+    if isinstance(error, Exception):
+        return error
+    if isinstance(error, (SystemExit, KeyboardInterrupt, GeneratorExit)):
+        return None
+    task = asyncio.current_task()
+    if isinstance(error, asyncio.CancelledError) and task is not None and task.cancelling():
+        return None
+    reported = RuntimeError(f"{type(error).__name__} was raised: {error}")
+    reported.__cause__ = error
+    return reported
+
+
+def is_end(error: Exception) -> bool:
+    """Whether it says only that something is closed, alone or in a group."""
+    if isinstance(error, ExceptionGroup):
+        return error.split(ClosedError)[1] is None
+    return isinstance(error, ClosedError)
 
 
 class UserErrors:
@@ -31,7 +57,10 @@ class UserErrors:
     def handle(self, error: Exception, what: str) -> None:
         """Treat ``error``, which ``what`` has raised."""
         if callable(self._policy):
-            self._policy(error)
+            try:
+                self._policy(error)
+            except Exception as second:  # it must not end what called us
+                self._log.error("on_error failed with %r", error, exc_info=second)
         elif self._policy == "log":
             self._log.error("%s failed", what, exc_info=error)
         elif self.failure is None:

@@ -29,6 +29,7 @@ from aioros1.net.hosts import (
     resolve,
     uri_host,
 )
+from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
 from aioros1.wire.xmlrpc import decode_response, encode_response
 from aioros1.xmlrpc.client import XmlRpcClient
@@ -139,6 +140,7 @@ class Master:
         # it does, such as the aggregator of /rosout, is put on top in start().
         self._stack = contextlib.AsyncExitStack()
         self._started = False
+        self._loop_state: LoopState | None = None  # of the loop that it is started in
         self._closing: asyncio.Task[None] | None = None
         self._reason = ""
         self._closed = asyncio.Event()
@@ -180,6 +182,7 @@ class Master:
         if self._started:
             raise RuntimeError("a master is started once")
         self._started = True
+        self._loop_state = loop_state()
         try:
             await self._start()
         except BaseException:
@@ -235,7 +238,12 @@ class Master:
 
     async def close(self) -> None:
         """Stop serving and free everything; idempotent. The nodes are not told: they
-        outlive their master, and register again with the next."""
+        outlive their master, and register again with the next.
+
+        Raises :class:`RuntimeError` in another thread or event loop than the master's.
+        """
+        if self._loop_state is not None:
+            self._loop_state.check_thread("Master.close()")
         await asyncio.shield(self._begin_to_close("closed"))
 
     async def wait_closed(self) -> str:

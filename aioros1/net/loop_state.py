@@ -70,8 +70,8 @@ class LoopState:
     def check_thread(self, what: str) -> None:
         """Refuse a call from another thread than the one that runs the loop.
 
-        ``what`` names the function in the error. While nobody runs the loop, the thread that
-        ran it may call. Raises :class:`RuntimeError`.
+        ``what`` names the function in the error. While nobody runs the loop, the thread in
+        which it was last seen running may call. Raises :class:`RuntimeError`.
         """
         if _get_running_loop() is self.loop:
             return

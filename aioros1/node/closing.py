@@ -24,8 +24,10 @@ async def close_members(context: Context, rosout: Rosout | None, timeout: float)
     try:
         async with asyncio.timeout(timeout):
             await _close(context, [each for each in context.members if not isinstance(each, Role)])
-            roles = [
-                each for each in context.members if not (rosout is not None and rosout.uses(each))
+            roles: list[Member] = [
+                each
+                for each in context.members
+                if isinstance(each, Role) and not (rosout is not None and rosout.uses(each))
             ]
             # What is being opened, or could not be taken back so far, has no open role.
             await asyncio.gather(

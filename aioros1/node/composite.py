@@ -57,8 +57,9 @@ class Composite:
         self._node = node
         self._name = name
         self._state = "new"
-        self._owned: list[Member] = []
+        self._owned: list[Any] = []
         self._tasks: set[asyncio.Task[None]] = set()
+        self._opening: asyncio.Task[None] | None = None
         self._closing: asyncio.Task[None] | None = None
 
     @property
@@ -91,18 +92,17 @@ class Composite:
         await self.close()
 
     async def close(self) -> None:
-        """Close it, with all that it owns.
+        """Close it, with all that it owns. What is being opened is given up.
 
-        You may call it any number of times. When the wait is cancelled, closing goes on.
+        You may call it any number of times. When the wait is cancelled, closing goes on. An
+        exception of :meth:`_close` is logged.
         """
         if self._state == "new":
             self._state = "closed"
-        if self._state in ("opening", "open"):
-            context = self._node._context
-            context.check_loop()
-            self._state = "closed"
-            self._closing = context.spawn(self._finish, name=f"close {self!r}")
-        if self._closing is not None:
+            return
+        self._node._context.check_loop()
+        self._end()
+        if self._closing is not None and self._closing is not asyncio.current_task():
             await asyncio.wait({self._closing})
 
     # for derived classes
@@ -120,6 +120,12 @@ class Composite:
         """Await what ``node.advertise`` and the like, or another composite, give; the open
         object, which is closed with this one."""
         member = await opening
+        if self._state not in ("opening", "open"):
+            await member.close()
+            raise self._closed_error()
+        if isinstance(member, Composite):
+            # It is closed by this one and not by the node, which would do so too soon.
+            self._node._context.members.pop(member, None)
         self._owned.append(member)
         return member
 
@@ -151,47 +157,86 @@ class Composite:
         context = self._node._context
         context.check_open()
         self._state = "opening"
+        context.members[self] = self._drop
+        # In a task of its own, so that closing can end it, whoever closes.
+        opening = self._opening = asyncio.create_task(self._run_open(), name=f"open {self!r}")
         try:
-            await self._open()
-            if self._state != "opening":  # closed meanwhile
-                raise self._closed_error()
-            self._state = "open"
-            await context.admit(self, self._drop)
-        except BaseException:
-            self._state = "closed"
-            await self._release()
+            await asyncio.wait({opening})
+        except asyncio.CancelledError:
+            await self.close()
             raise
-        return self
+        if not opening.cancelled() and opening.exception() is None:
+            return self  # one of its tasks may have closed it already
+        was_closed = self._state == "closed"
+        await self.close()
+        if was_closed:
+            raise self._closed_error()
+        await opening  # which raises
+        raise AssertionError("opening had failed")
 
-    async def _finish(self) -> None:
+    async def _run_open(self) -> None:
+        await self._open()
+        if self._state != "opening":
+            raise self._closed_error()
+        self._state = "open"
+
+    def _end(self) -> None:
+        """Begin to close, once, in a task of the node, which no cancellation reaches."""
+        if self._closing is None and self._state in ("opening", "open"):
+            was_open = self._state == "open"
+            self._state = "closed"
+            try:
+                self._closing = self._node._context.spawn(
+                    self._finish, was_open, name=f"close {self!r}"
+                )
+            except ClosedError:  # the node has ended
+                self._drop()
+
+    async def _finish(self, was_open: bool) -> None:
         try:
-            await self._close()
+            await self._end_opening()
+            if was_open:
+                await self._close()
         finally:
-            await self._release()
+            try:
+                await self._release()
+            finally:
+                self._node._context.members.pop(self, None)
+
+    async def _end_opening(self) -> None:
+        opening = self._opening
+        assert opening is not None
+        if not opening.done():
+            opening.cancel()
+            await asyncio.wait({opening})
+        if not opening.cancelled():
+            opening.exception()  # whoever opens it gets that, if it still wants to know
 
     async def _release(self) -> None:
-        """Cancel the tasks, close what is owned, and leave the node."""
-        try:
-            current = asyncio.current_task()
-            tasks = [task for task in self._tasks if task is not current]
-            for task in tasks:
-                task.cancel()
-            if tasks:
-                await asyncio.wait(tasks)
-            while self._owned:
-                await self._owned.pop().close()
-        finally:
-            self._node._context.members.pop(self, None)
+        """Cancel the tasks, and close what is owned, the last first."""
+        tasks = tuple(self._tasks)
+        for task in tasks:
+            task.cancel()
+        if tasks:
+            await asyncio.wait(tasks)
+        while self._owned:
+            await self._owned.pop().close()
 
     def _drop(self) -> None:
+        """The node has ended, and there was no time to close."""
         self._state = "closed"
+        if self._opening is not None:
+            self._opening.cancel()
+        for member in self._owned:
+            if isinstance(member, Composite):
+                member._drop()
         self._abort()
 
     def _closed_error(self) -> ClosedError:
         reason = self._node.close_reason
         why = f": the node was closed ({reason})" if reason is not None else ""
-        state = self._state if self._state in ("new", "opening") else "closed"
-        return ClosedError(f"{type(self).__name__} {self._name} is {state}, not open{why}")
+        name = f"{type(self).__name__} {self._name}".rstrip()
+        return ClosedError(f"{name} is {self._state}, not open{why}")
 
     def __repr__(self) -> str:
         name = f" {self._name}" if self._name else ""

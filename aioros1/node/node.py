@@ -20,7 +20,7 @@ from aioros1.core.registrations import AT_ONCE, Registrations
 from aioros1.core.role import Role
 from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
-from aioros1.core.user_errors import UserErrors
+from aioros1.core.user_errors import UserErrors, reportable
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
@@ -267,6 +267,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     def abort(self) -> None:
         """Drop everything at once, without a word to the master or to peers."""
+        self._context.check_loop()
         self._close_timeout = 0
         self._supervisor.end("aborted")
         self._drop()
@@ -415,27 +416,34 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         An exception of it is treated as ``on_error`` says, and does not come out of the
         task, whose result is None. Raises :class:`~aioros1.ClosedError`.
         """
+        if not asyncio.iscoroutine(coro):
+            raise TypeError(f"create_task() takes a coroutine, got {coro!r}")
         what = name if name is not None else f"task of node {self.name}"
         try:
             self._context.check_open()
-            return self._context.spawn(self._run_for_user, coro, what, name=what)
+            task = self._context.spawn(self._run_for_user, coro, what, name=what)
         except BaseException:
             coro.close()  # Python warns of one that is never awaited
             raise
+        task.add_done_callback(lambda _: coro.close())  # cancelled before its first step
+        return task
 
     async def _run_for_user(self, coro: Coroutine[Any, Any, object], what: str) -> None:
         try:
             await coro
-        except Exception as error:
-            if not (isinstance(error, ClosedError) and not self.is_open):
-                self._user_errors.handle(error, what)
+        except BaseException as error:
+            reported = reportable(error)
+            if reported is None:
+                raise
+            self._context.user_error(reported, what)
 
     def handle_error(self, error: Exception, what: str) -> None:
         """Treat an exception that ``what`` has raised as ``on_error`` says.
 
         For code that calls your callbacks where nobody awaits them.
         """
-        self._user_errors.handle(error, what)
+        self._context.check_loop()
+        self._context.user_error(error, what)
 
     # the graph
 
@@ -589,7 +597,10 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._services.abort()
         members = self._context.members
         for abort in tuple(members.values()):
-            abort()
+            try:
+                abort()
+            except Exception as error:  # of a composite: the others are dropped all the same
+                self._context.report(error, "dropping what was open")
         members.clear()
         self._end_time()
         self._events.close()

@@ -43,6 +43,9 @@ class Publishing(Protocol):
     _latched: Frame | None
     """The message that new subscribers get first."""
 
+    @property
+    def is_open(self) -> bool: ...
+
 
 class Publication(Shared[Publishing]):
     """One published topic of one node."""
@@ -103,7 +106,8 @@ class Publication(Shared[Publishing]):
     def check_type(self, message_class: type[Message]) -> None:
         """Raise :class:`~aioros1.Md5MismatchError` for a type that is not the one published."""
         ours = self.message_class
-        if self.roles and ours._md5sum != message_class._md5sum:
+        is_used = any(publisher.is_open for publisher in self.roles)
+        if is_used and ours._md5sum != message_class._md5sum:
             raise Md5MismatchError(
                 f"{self._context.name} publishes {self.name} as {ours._type} with md5sum "
                 f"{ours._md5sum} already, not as {message_class._type} with md5sum "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import inspect
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1._public import public
 from aioros1.core.role import Role
+from aioros1.core.user_errors import reportable
 from aioros1.errors import DeserializationError
 from aioros1.idl.codec import codec_of
 from aioros1.net.topic_links import IncomingLink, Received
@@ -180,6 +182,8 @@ class Subscriber(Role, Generic[M]):
         ``timeout`` seconds, and :class:`~aioros1.ClosedError`.
         """
         self._check_queued()
+        if not isinstance(n, int) or n < 1:
+            raise ValueError(f"subscriber {self.name}: expected 1 message or more, got {n!r}")
         if n > self.options.queue_size:
             raise ValueError(
                 f"subscriber {self.name}: {n} messages never fit into a queue of "
@@ -200,6 +204,7 @@ class Subscriber(Role, Generic[M]):
         It is called in the event loop, where the messages arrive: it has to return soon, and
         must not raise. It is for who waits for several subscribers at a time.
         """
+        self._context.check_loop()
         self._on_arrival += (function,)
 
     def remove_arrival_callback(self, function: Callable[[], object]) -> None:
@@ -401,8 +406,8 @@ class Subscriber(Role, Generic[M]):
                 result = callback(message)
                 if result is not None and inspect.isawaitable(result):
                     _refuse(result)
-            except Exception as error:  # the user's code; what becomes of it is an option
-                self._context.user_error(error, f"the callback of subscriber {self.name}")
+            except BaseException as error:
+                self._failed(error)
 
     async def _take_all(self) -> None:
         """Await a coroutine function for each message."""
@@ -415,8 +420,16 @@ class Subscriber(Role, Generic[M]):
                 continue
             try:
                 await callback(message)
-            except Exception as error:  # the user's code; what becomes of it is an option
-                self._context.user_error(error, f"the callback of subscriber {self.name}")
+            except BaseException as error:
+                self._failed(error)
+
+    def _failed(self, error: BaseException) -> None:
+        """The user's code has raised; what becomes of that is an option of the node. Other
+        subscribers of the connection must not notice."""
+        reported = reportable(error)
+        if reported is None:
+            raise error
+        self._context.user_error(reported, f"the callback of subscriber {self.name}")
 
     # the end
 
@@ -454,7 +467,11 @@ class _Events(Generic[M]):
         return f"<events of {self._subscriber!r}>"
 
 
-def _is_coroutine_function(callback: Callback) -> bool:
+def _is_coroutine_function(callback: Callable[..., object]) -> bool:
+    while isinstance(callback, functools.partial):
+        callback = callback.func
+    if isinstance(callback, type):
+        return False  # called, it gives an object, whatever can be done with that
     call = getattr(callback, "__call__", None)  # noqa: B004 - of an object that is called
     return inspect.iscoroutinefunction(callback) or inspect.iscoroutinefunction(call)
 

@@ -50,6 +50,8 @@ class Subscribing(Protocol):
     def md5sum(self) -> str: ...
     @property
     def definition(self) -> str: ...
+    @property
+    def is_open(self) -> bool: ...
 
     def _offer(self, frames: list[Received]) -> None:
         """Take frames, all of one link."""
@@ -103,7 +105,7 @@ class Subscription(Shared[Subscribing]):
         each may take any, do not agree on."""
         for sub in self.roles:
             ours = sub.message_class
-            if ours is not None and ours._md5sum != message_class._md5sum:
+            if sub.is_open and ours is not None and ours._md5sum != message_class._md5sum:
                 raise Md5MismatchError(
                     f"{self._context.name} subscribes to {self.name} as {ours._type} with "
                     f"md5sum {ours._md5sum} already, not as {message_class._type} with "

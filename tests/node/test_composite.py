@@ -121,6 +121,28 @@ async def test_one_within_another(make_node):
     assert node.roles == ()
 
 
+@pytest.mark.parametrize("closed_by", ["itself", "node"])
+async def test_what_it_owns_is_open_when_it_closes(master, closed_by):
+    closed = []
+
+    class Inner(Composite):
+        async def _close(self):
+            closed.append("inner")
+
+    class Outer(Composite):
+        async def _open(self):
+            self.inner = await self._own(Inner(self.node))
+
+        async def _close(self):
+            closed.append(("outer", self.inner.is_open))
+
+    async with aioros1.Node("node", master_uri=master.uri, host="localhost") as node:
+        outer = await Outer(node)
+        if closed_by == "itself":
+            await outer.close()
+    assert closed == [("outer", True), "inner"]
+
+
 async def test_what_it_had_opened_is_closed_when_opening_fails(make_node):
     node = await make_node()
     relay = Relay(node, fail_at="open")
@@ -169,6 +191,83 @@ async def test_closing_it_while_it_opens(make_node):
     with pytest.raises(aioros1.ClosedError, match="Slow s is closed"):
         await task
     assert node.roles == ()
+
+
+async def test_closing_ends_an_opening_that_never_would(make_node, master):
+    """Whoever closes: the composite itself, or its node."""
+
+    class Stuck(Composite):
+        async def _open(self):
+            self.pub = await self._own(self.node.advertise("a", String))
+            await asyncio.Event().wait()
+
+        async def _close(self):
+            raise AssertionError("it was never open")
+
+    quiet = {"rosout": False, "logger_services": False, "host": "localhost"}
+    async with aioros1.Node("node", master_uri=master.uri, **quiet) as node:
+        for closed_by in ("itself", "node"):
+            stuck = Stuck(node, "s")
+            task = asyncio.create_task(stuck.__aenter__())
+            async with asyncio.timeout(20):
+                while not node.roles:
+                    await asyncio.sleep(0)
+                await (stuck if closed_by == "itself" else node).close()
+            with pytest.raises(aioros1.ClosedError, match="Stuck s is closed"):
+                await task
+            assert node.roles == ()
+
+
+async def test_an_opening_that_is_cancelled_twice_leaves_nothing(make_node):
+    node = await make_node()
+    ended = asyncio.Event()
+
+    class Slow(Composite):
+        async def _open(self):
+            self.pub = await self._own(self.node.advertise("a", String))
+            self._create_task(self._run())
+            await asyncio.Event().wait()
+
+        async def _run(self):
+            try:
+                await asyncio.Event().wait()
+            finally:
+                await ended.wait()
+
+    slow = Slow(node)
+    task = asyncio.create_task(slow.__aenter__())
+    while not node.roles:
+        await asyncio.sleep(0)
+    for _ in range(2):
+        task.cancel()
+        for _ in range(5):
+            await asyncio.sleep(0)
+    with pytest.raises(asyncio.CancelledError):
+        await task
+    ended.set()
+    await slow.close()
+    assert node.roles == ()
+
+
+async def test_what_comes_too_late_is_closed_again(make_node):
+    node = await make_node()
+    relay = await Relay(node)
+    await relay.close()
+    with pytest.raises(aioros1.ClosedError):
+        await relay._own(node.advertise("late", String))
+    assert node.roles == ()
+
+
+async def test_closing_within_close(make_node):
+    node = await make_node()
+
+    class Twice(Composite):
+        async def _close(self):
+            await self.close()
+
+    async with asyncio.timeout(20):
+        async with Twice(node):
+            pass
 
 
 async def test_closing_it_from_one_of_its_tasks(make_node):

@@ -145,3 +145,18 @@ async def _open(opening):
 
 async def _call(function, *args):
     function(*args)
+
+
+async def test_a_master(make_node, master):
+    node = await make_node()
+    with pytest.raises(RuntimeError, match=ELSEWHERE):
+        await elsewhere(lambda: asyncio.run(master.close()))
+    assert await node.get_param_names()
+
+
+async def test_what_ends_a_node(make_node):
+    node = await make_node()
+    for use in (node.abort, lambda: node.handle_error(ValueError("no"), "mine")):
+        with pytest.raises(RuntimeError, match=ELSEWHERE):
+            await elsewhere(use)
+    assert node.is_open

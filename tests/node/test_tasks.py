@@ -70,6 +70,55 @@ async def test_an_exception_of_a_task_ends_the_node_by_default(master):
     assert node.close_reason == "mine failed: ValueError('no')"
 
 
+async def test_a_task_that_never_began_is_no_warning(make_node):
+    node = await make_node()
+    node.create_task(asyncio.sleep(0)).cancel()
+    await asyncio.sleep(0)
+
+
+@pytest.mark.parametrize("what", [3, asyncio.sleep])
+async def test_what_is_no_coroutine_is_refused_at_once(make_node, what):
+    node = await make_node()
+    with pytest.raises(TypeError, match=r"create_task\(\) takes a coroutine, got"):
+        node.create_task(what)
+
+
+async def test_a_cancellation_that_was_not_ours_is_an_error(make_node):
+    errors = []
+    node = await make_node(on_error=errors.append)
+
+    async def await_what_somebody_cancels():
+        other = asyncio.create_task(asyncio.sleep(3600))
+        asyncio.get_running_loop().call_soon(other.cancel)
+        await other
+
+    await node.create_task(await_what_somebody_cancels())
+    assert isinstance(errors[0].__cause__, asyncio.CancelledError)
+    assert node.is_open
+
+
+@pytest.mark.parametrize("in_a_group", [False, True])
+async def test_the_end_of_the_node_is_no_error_of_a_task(master, in_a_group):
+    async def wait(node):
+        if not in_a_group:
+            await node.sleep(3600)
+        async with asyncio.TaskGroup() as group:
+            group.create_task(node.sleep(3600))
+
+    async with aioros1.Node("node", master_uri=master.uri, host="localhost") as node:
+        node.create_task(wait(node))
+        await asyncio.sleep(0)
+
+
+async def test_on_error_that_fails_is_logged(make_node, caplog):
+    def on_error(error):
+        raise KeyError("in on_error")
+
+    node = await make_node(on_error=on_error)
+    node.handle_error(ValueError("first"), "mine")
+    assert "on_error failed with ValueError('first')" in caplog.text
+
+
 async def test_a_node_that_is_not_open_takes_no_task(master):
     node = aioros1.Node("node", master_uri=master.uri)
     with pytest.raises(aioros1.ClosedError):

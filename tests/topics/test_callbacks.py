@@ -87,7 +87,7 @@ async def test_a_queue_stands_before_a_coroutine_function(make_node):
         assert dropping[-1] == "19"
 
 
-@pytest.mark.parametrize("kind", ["partial", "object", "method"])
+@pytest.mark.parametrize("kind", ["partial", "partial object", "object", "method"])
 async def test_what_is_a_coroutine_function_is_seen(make_node, kind):
     node = await make_node()
     got = []
@@ -104,7 +104,12 @@ async def test_what_is_a_coroutine_function_is_seen(make_node, kind):
         await Sink()(message)
 
     sink = Sink()
-    callback = {"partial": functools.partial(two, 1), "object": sink, "method": sink.method}[kind]
+    callback = {
+        "partial": functools.partial(two, 1),
+        "partial object": functools.partial(sink),
+        "object": sink,
+        "method": sink.method,
+    }[kind]
     async with (
         node.advertise("chatter", String, latch=True) as pub,
         node.subscribe("chatter", String, callback),
@@ -173,6 +178,48 @@ async def test_an_exception_ends_the_node_by_default(make_node, master):
         with pytest.raises(ValueError, match="no"):
             await node.wait_closed()
     assert "the callback of subscriber /chatter failed" in (node.close_reason or "")
+
+
+@pytest.mark.parametrize("is_async", [False, True])
+async def test_a_cancellation_that_was_not_ours_is_an_error(make_node, is_async):
+    """The next message comes, and other subscribers of the connection do not notice."""
+    errors, got, others = [], [], []
+    node = await make_node(on_error=errors.append)
+
+    def fail(message):
+        got.append(message.data)
+        raise asyncio.CancelledError("of something else")
+
+    async def fail_later(message):
+        fail(message)
+
+    async with (
+        node.advertise("chatter", String) as pub,
+        node.subscribe("chatter", String, fail_later if is_async else fail),
+        node.subscribe("chatter", String, lambda message: others.append(message.data)) as other,
+    ):
+        await pub.wait_for_subscribers()
+        for data in "abc":
+            pub.publish(data=data)
+        await until(lambda: len(got) == len(others) == 3)
+        assert got == others == ["a", "b", "c"]
+        assert all(isinstance(error.__cause__, asyncio.CancelledError) for error in errors)
+        assert len(errors) == 3
+        assert len(other.connections) == 1
+
+
+async def test_the_end_of_the_node_is_no_error_of_a_callback(master):
+    async with aioros1.Node("node", master_uri=master.uri, host="localhost") as node:
+        begun = asyncio.Event()
+
+        async def wait(message):
+            begun.set()
+            await node.sleep(3600)
+
+        await node.subscribe("chatter", String, wait)
+        pub = await node.advertise("chatter", String, latch=True)
+        pub.publish(data="a")
+        await asyncio.wait_for(begun.wait(), 20)
 
 
 @pytest.mark.parametrize("is_async", [False, True])

@@ -7,7 +7,7 @@ import asyncio
 import pytest
 
 import aioros1
-from aioros1.msg.std_msgs import String
+from aioros1.msg.std_msgs import Int32, String
 
 
 async def test_a_message_reaches_a_subscriber(make_node):
@@ -64,3 +64,21 @@ async def test_a_message_may_be_given_by_keyword_unless_that_is_a_field(make_nod
         assert (await logged.get(timeout=30)).msg == "a field"
         with pytest.raises(TypeError, match="a message or fields, got both"):
             pub.publish(String(), data="x")
+
+
+async def test_another_type_while_the_old_one_is_being_closed(make_node):
+    """At whatever moment of the close: the master learns of the new type."""
+    node = await make_node()
+    for turns in range(12):
+        pub = await node.advertise("t", String)
+        closing = asyncio.create_task(pub.close())
+        for _ in range(turns):
+            await asyncio.sleep(0)
+        if not turns:
+            await asyncio.sleep(0)
+        async with asyncio.timeout(20):
+            other = await node.advertise("t", Int32)
+            assert ("/t", "std_msgs/Int32") in await node.master.get_published_topics()
+            await closing
+            await other.close()
+        assert not await node.master.get_published_topics()
