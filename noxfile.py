@@ -20,10 +20,14 @@ QUICK = ("-m", "not slow", "-n", "2", "-q")
 PYTHONS = ["3.11", "3.12", "3.13"]
 
 COVERED = {
-    "lines": ("num_statements", "covered_lines", 74.0),
-    "branches": ("num_branches", "covered_branches", 60.0),
+    "lines": ("num_statements", "covered_lines", 87.0),
+    "branches": ("num_branches", "covered_branches", 71.0),
 }
 """The names of coverage.json for all and for those reached, and the least percentage of these."""
+
+NOT_WITH_COVERAGE = ("tests/test_two_loops.py", "tests/idl/test_modules.py")
+"""Tests that look for what must not happen, and find what coverage does: it takes locks in
+threads with an event loop, and imports modules."""
 
 LINTERS = ("codespell", "ruff")
 
@@ -107,7 +111,8 @@ def coverage(session: nox.Session) -> None:
     session.env["COVERAGE_FILE"] = str(folder / "coverage")
     options = [option for option in session.posargs if option != "--whole"]
     tests = QUICK[2:] if "--whole" in session.posargs else QUICK
-    session.run("coverage", "run", "-m", "pytest", *tests, *options)
+    left_out = [f"--ignore={file}" for file in NOT_WITH_COVERAGE]
+    session.run("coverage", "run", "-m", "pytest", *tests, *left_out, *options)
     session.run("coverage", "combine", "-q")
     session.run("coverage", "report", "--sort=cover")
     report = folder / "coverage.json"

@@ -63,6 +63,7 @@ async def opened(node, type=String):
 async def test_a_late_registration_leaves_no_ghost(gate, make_node, how, times):
     timeouts = aioros1.Timeouts(xmlrpc=0.1 if how == "out of time" else 5)
     node = await make_node("node", timeouts=timeouts, heartbeat=None)
+    observer = await make_node("observer", heartbeat=None)
     gate.opened.clear()
     opening = asyncio.create_task(opened(node))
 
@@ -88,7 +89,7 @@ async def test_a_late_registration_leaves_no_ghost(gate, make_node, how, times):
         gate.opened.set()
 
     async def it_was_taken_back():
-        return gate.obeyed and "/late" not in await publishers(node)
+        return gate.obeyed and "/late" not in await publishers(observer)
 
     await until(it_was_taken_back)
 

@@ -409,4 +409,5 @@ def _named(node: ast.AST) -> str:
 
 def _relative(module: ModuleType) -> str:
     path = Path(str(module.__file__))
-    return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else path.name
+    # Temporary folders, with modules that are made up, may lie below the root as well.
+    return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT / "aioros1") else path.name

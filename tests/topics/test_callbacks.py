@@ -60,7 +60,7 @@ async def test_a_coroutine_function_is_awaited_message_by_message(make_node):
 
 async def test_a_queue_stands_before_a_coroutine_function(make_node):
     """It drops as any queue does, and loses nothing with ``overflow="block"``."""
-    node = await make_node()
+    node, other = await make_node("node"), await make_node("other")
     got, dropping, go_on = [], [], asyncio.Event()
 
     async def slow(message):
@@ -74,9 +74,9 @@ async def test_a_queue_stands_before_a_coroutine_function(make_node):
     async with (
         node.advertise("chatter", String, queue_size=1000) as pub,
         node.subscribe("chatter", String, slow, queue_size=2, overflow="block"),
-        node.subscribe("chatter", String, slow_and_dropping, queue_size=2) as drops,
+        other.subscribe("chatter", String, slow_and_dropping, queue_size=2) as drops,
     ):
-        await pub.wait_for_subscribers()
+        await pub.wait_for_subscribers(2)
         for number in range(20):
             pub.publish(data=str(number))
         await until(lambda: drops.stats.messages == 20)
