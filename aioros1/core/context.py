@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from asyncio import _get_running_loop
 from collections.abc import Callable
+from threading import get_ident
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from aioros1 import names
@@ -138,7 +139,7 @@ class Context:
             reason = supervisor.reason
             why = f" ({reason})" if reason is not None else ""
             raise ClosedError(f"node {self.name} is {supervisor.state}, not open{why}")
-        if _get_running_loop() is not self.loop_state.loop:
+        if get_ident() != self.loop_state.thread_id:
             self.check_loop()
 
     def check_loop(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import builtins
 from abc import ABC, abstractmethod
-from asyncio import _get_running_loop
+from threading import get_ident
 from types import TracebackType
 from typing import Any, Self
 
@@ -34,7 +34,7 @@ class Role(ABC):
         self._context = context
         self._name = name
         self._is_open = True
-        self._loop = asyncio.get_running_loop()
+        self._loop_state = context.loop_state
         self._closing: asyncio.Task[None] | None = None
         self.stats = RoleStats()
         """What it has counted."""
@@ -81,7 +81,7 @@ class Role(ABC):
         is gone, is logged and not raised. When the wait is cancelled, closing goes on.
         """
         if self._is_open:
-            if _get_running_loop() is not self._loop:
+            if get_ident() != self._loop_state.thread_id:
                 self._context.check_loop()
             self._is_open = False
             self._closing = self._context.spawn(
@@ -106,7 +106,7 @@ class Role(ABC):
     def _check_open(self) -> None:
         if not self._is_open:
             raise self._closed_error()
-        if _get_running_loop() is not self._loop:
+        if get_ident() != self._loop_state.thread_id:
             self._context.check_loop()
 
     def _closed_error(self) -> ClosedError:

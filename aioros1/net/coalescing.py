@@ -11,9 +11,8 @@ process and back.
 from __future__ import annotations
 
 import asyncio
-from asyncio import _get_running_loop
 from collections.abc import Callable
-from threading import RLock
+from threading import RLock, get_ident
 from time import perf_counter
 
 __all__ = ["Coalescer"]
@@ -42,6 +41,7 @@ class Coalescer:
         "collects_here",
         "is_collecting",
         "should_yield",
+        "thread_id",
     )
 
     def __init__(
@@ -49,6 +49,8 @@ class Coalescer:
     ) -> None:
         self._loop = loop
         self._check_thread = check_thread
+        self.thread_id = get_ident()
+        """The thread that ran the loop when somebody looked last."""
         self.is_collecting = False
         """Whether messages are collected until the end of the iteration. A plain attribute,
         as it is looked at for each message."""
@@ -71,7 +73,7 @@ class Coalescer:
         To be called unless :attr:`collects_here`. Raises :class:`RuntimeError` outside the
         loop's thread, and then has changed nothing.
         """
-        if _get_running_loop() is not self._loop:
+        if get_ident() != self.thread_id:
             self._check_thread("publish()")
         if not self.is_collecting and perf_counter() - self._sent_at < BURST_GAP:
             self.collect()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import itertools
-from asyncio import _get_running_loop
 from collections.abc import Mapping
 from dataclasses import dataclass
+from threading import get_ident
 from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
@@ -147,7 +147,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         when it is cancelled the connection is closed, so that an answer that comes late
         is never taken for another call's.
         """
-        if not self._is_open or _get_running_loop() is not self._loop:
+        if not self._is_open or get_ident() != self._loop_state.thread_id:
             self._check_open()
         side = self._side
         if fields or request.__class__ is not side.outgoing_class:

@@ -215,6 +215,7 @@ class Subscriber(Role, Generic[M]):
 
     def __aiter__(self) -> Self:
         self._check_queued()
+        self._context.check_iterator()
         return self
 
     async def __anext__(self) -> M:
@@ -250,7 +251,8 @@ class Subscriber(Role, Generic[M]):
         if timeout is not None:
             async with deadline(timeout, f"subscriber {self.name}: no message came"):
                 return await self.get()
-        self._check_queued()
+        if self.callback is not None:
+            self._check_queued()
         while True:
             self._check_open()
             item = self._take()
@@ -293,6 +295,7 @@ class Subscriber(Role, Generic[M]):
     def events(self) -> AsyncIterator[MessageEvent[M]]:
         """Iterate as the subscriber itself does, over :class:`MessageEvent`."""
         self._check_queued()
+        self._context.check_iterator()
         return _Events(self)
 
     async def _next_event(self) -> MessageEvent[M]:
@@ -321,7 +324,6 @@ class Subscriber(Role, Generic[M]):
     def _check_queued(self) -> None:
         if self.callback is not None:
             raise TypeError(f"subscriber {self.name} has a callback, which gets all messages")
-        self._context.check_iterator()
 
     def _take(self) -> Received | None:
         if not self._queue and self._backlog:

@@ -7,8 +7,8 @@ URI has none. Some of their answers are not XML-RPC.
 from __future__ import annotations
 
 import math
-from asyncio import _get_running_loop
 from collections.abc import Callable
+from threading import get_ident
 from typing import Any, TypeVar
 
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerError, PeerUnreachable
@@ -56,7 +56,7 @@ class XmlRpcClient:
             raise ClosedError("the XML-RPC client is closed")
         if self._loop_state is None:
             self._loop_state = loop_state()
-        if _get_running_loop() is not self._loop_state.loop:
+        if get_ident() != self._loop_state.thread_id:
             self._loop_state.check_thread(method)
         try:
             server = server_at(uri)
