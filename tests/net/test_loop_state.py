@@ -206,7 +206,7 @@ def test_a_loop_may_go_on_in_another_thread(make_loop: MakeLoop) -> None:
     thread.start()
     try:
         assert entered.wait(30)
-        with pytest.raises(RuntimeError, match="the event loop in another thread"):
+        with pytest.raises(RuntimeError, match="belongs to the event loop in"):
             state.check_thread("where it ran before")
     finally:
         leave.set()
