@@ -61,6 +61,8 @@ class Publisher(Role, Generic[M]):
         self._latches = options.latch
         self._frame = _frame_encoder(message_class)
         self._is_numbered = message_class._has_header
+        # Messages of this class are encoded as they are: a call less for each.
+        self._plain_class = None if self._is_numbered else message_class
         self._seq = 0
         self._timers: WeakSet[Timer] = WeakSet()  # those that run keep themselves
 
@@ -112,7 +114,10 @@ class Publisher(Role, Generic[M]):
         coalescer = publication.coalescer
         if not coalescer.collects_here():
             coalescer.begin()
-        frame = self._encode(msg, fields)
+        if msg.__class__ is self._plain_class and not fields:
+            frame = self._frame(msg)
+        else:
+            frame = self._encode(msg, fields)
         if self._blocks and publication.is_congested:
             self._require_room()
         if self._latches:
@@ -166,7 +171,10 @@ class Publisher(Role, Generic[M]):
             )
         if not coalescer.collects_here():
             coalescer.begin()
-        frame = self._encode(msg, fields)
+        if msg.__class__ is self._plain_class and not fields:
+            frame = self._frame(msg)
+        else:
+            frame = self._encode(msg, fields)
         if self._latches:
             self._latched = frame
         publication.send(frame, self)
