@@ -48,40 +48,43 @@ class Composite:
 
     Derived classes have the methods that begin with an underscore for themselves:
     :meth:`_open`, :meth:`_close` and :meth:`_abort` are called and may be replaced,
-    :meth:`_own`, :meth:`_create_task` and :meth:`_check_open` are there to be used.
+    :meth:`_own`, :meth:`_create_task` and :meth:`_check_open` are there to be used. All other
+    names are free for them.
     """
+
+    # What is our own has two underscores: derived classes choose names without looking here.
 
     def __init__(self, node: Node, name: str = "") -> None:
         if not isinstance(node, Node):
             raise TypeError(f"{type(self).__name__}: expected a Node first, got {node!r}")
-        self._node = node
-        self._name = name
-        self._state = "new"
-        self._owned: list[Any] = []
-        self._tasks: set[asyncio.Task[None]] = set()
-        self._opening: asyncio.Task[None] | None = None
-        self._closing: asyncio.Task[None] | None = None
+        self.__node = node
+        self.__name = name
+        self.__state = "new"
+        self.__owned: list[Any] = []
+        self.__tasks: set[asyncio.Task[None]] = set()
+        self.__opening: asyncio.Task[None] | None = None
+        self.__closing: asyncio.Task[None] | None = None
 
     @property
     def node(self) -> Node:
         """The node that it lives on."""
-        return self._node
+        return self.__node
 
     @property
     def name(self) -> str:
         """What tells it from others of its kind."""
-        return self._name
+        return self.__name
 
     @property
     def is_open(self) -> bool:
         """Whether it can be used."""
-        return self._state == "open"
+        return self.__state == "open"
 
     def __await__(self) -> Generator[Any, None, Self]:
-        return self._start().__await__()
+        return self.__start().__await__()
 
     async def __aenter__(self) -> Self:
-        return await self._start()
+        return await self.__start()
 
     async def __aexit__(
         self,
@@ -97,13 +100,13 @@ class Composite:
         You may call it any number of times. When the wait is cancelled, closing goes on. An
         exception of :meth:`_close` is logged.
         """
-        if self._state == "new":
-            self._state = "closed"
+        if self.__state == "new":
+            self.__state = "closed"
             return
-        self._node._context.check_loop()
-        self._end()
-        if self._closing is not None and self._closing is not asyncio.current_task():
-            await asyncio.wait({self._closing})
+        self.__node._context.check_loop()
+        self.__end()
+        if self.__closing is not None and self.__closing is not asyncio.current_task():
+            await asyncio.wait({self.__closing})
 
     # for derived classes
 
@@ -120,13 +123,13 @@ class Composite:
         """Await what ``node.advertise`` and the like, or another composite, give; the open
         object, which is closed with this one."""
         member = await opening
-        if self._state not in ("opening", "open"):
+        if self.__state not in ("opening", "open"):
             await member.close()
-            raise self._closed_error()
+            raise self.__closed_error()
         if isinstance(member, Composite):
             # It is closed by this one and not by the node, which would do so too soon.
-            self._node._context.members.pop(member, None)
-        self._owned.append(member)
+            self.__node._context.members.pop(member, None)
+        self.__owned.append(member)
         return member
 
     def _create_task(
@@ -134,32 +137,32 @@ class Composite:
     ) -> asyncio.Task[None]:
         """Run a coroutine in a task that is cancelled when this is closed; otherwise as
         :meth:`aioros1.Node.create_task`."""
-        if self._state not in ("opening", "open"):
+        if self.__state not in ("opening", "open"):
             coro.close()
-            raise self._closed_error()
-        task = self._node.create_task(coro, name=name)
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+            raise self.__closed_error()
+        task = self.__node.create_task(coro, name=name)
+        self.__tasks.add(task)
+        task.add_done_callback(self.__tasks.discard)
         return task
 
     def _check_open(self) -> None:
         """Raise :class:`~aioros1.ClosedError` unless it is open, and :class:`RuntimeError`
         in another event loop than the node's."""
-        if self._state != "open":
-            raise self._closed_error()
-        self._node._context.check_loop()
+        if self.__state != "open":
+            raise self.__closed_error()
+        self.__node._context.check_loop()
 
     # inside
 
-    async def _start(self) -> Self:
-        if self._state != "new":
+    async def __start(self) -> Self:
+        if self.__state != "new":
             raise RuntimeError(f"{self!r} was opened before; make a new one")
-        context = self._node._context
+        context = self.__node._context
         context.check_open()
-        self._state = "opening"
-        context.members[self] = self._drop
+        self.__state = "opening"
+        context.members[self] = self.__drop
         # In a task of its own, so that closing can end it, whoever closes.
-        opening = self._opening = asyncio.create_task(self._run_open(), name=f"open {self!r}")
+        opening = self.__opening = asyncio.create_task(self.__run_open(), name=f"open {self!r}")
         try:
             await asyncio.wait({opening})
         except asyncio.CancelledError:
@@ -167,44 +170,44 @@ class Composite:
             raise
         if not opening.cancelled() and opening.exception() is None:
             return self  # one of its tasks may have closed it already
-        was_closed = self._state == "closed"
+        was_closed = self.__state == "closed"
         await self.close()
         if was_closed:
-            raise self._closed_error()
+            raise self.__closed_error()
         await opening  # which raises
         raise AssertionError("opening had failed")
 
-    async def _run_open(self) -> None:
+    async def __run_open(self) -> None:
         await self._open()
-        if self._state != "opening":
-            raise self._closed_error()
-        self._state = "open"
+        if self.__state != "opening":
+            raise self.__closed_error()
+        self.__state = "open"
 
-    def _end(self) -> None:
+    def __end(self) -> None:
         """Begin to close, once, in a task of the node, which no cancellation reaches."""
-        if self._closing is None and self._state in ("opening", "open"):
-            was_open = self._state == "open"
-            self._state = "closed"
+        if self.__closing is None and self.__state in ("opening", "open"):
+            was_open = self.__state == "open"
+            self.__state = "closed"
             try:
-                self._closing = self._node._context.spawn(
-                    self._finish, was_open, name=f"close {self!r}"
+                self.__closing = self.__node._context.spawn(
+                    self.__finish, was_open, name=f"close {self!r}"
                 )
             except ClosedError:  # the node has ended
-                self._drop()
+                self.__drop()
 
-    async def _finish(self, was_open: bool) -> None:
+    async def __finish(self, was_open: bool) -> None:
         try:
-            await self._end_opening()
+            await self.__end_opening()
             if was_open:
                 await self._close()
         finally:
             try:
-                await self._release()
+                await self.__release()
             finally:
-                self._node._context.members.pop(self, None)
+                self.__node._context.members.pop(self, None)
 
-    async def _end_opening(self) -> None:
-        opening = self._opening
+    async def __end_opening(self) -> None:
+        opening = self.__opening
         assert opening is not None
         if not opening.done():
             opening.cancel()
@@ -212,32 +215,32 @@ class Composite:
         if not opening.cancelled():
             opening.exception()  # whoever opens it gets that, if it still wants to know
 
-    async def _release(self) -> None:
+    async def __release(self) -> None:
         """Cancel the tasks, and close what is owned, the last first."""
-        tasks = tuple(self._tasks)
+        tasks = tuple(self.__tasks)
         for task in tasks:
             task.cancel()
         if tasks:
             await asyncio.wait(tasks)
-        while self._owned:
-            await self._owned.pop().close()
+        while self.__owned:
+            await self.__owned.pop().close()
 
-    def _drop(self) -> None:
+    def __drop(self) -> None:
         """The node has ended, and there was no time to close."""
-        self._state = "closed"
-        if self._opening is not None:
-            self._opening.cancel()
-        for member in self._owned:
+        self.__state = "closed"
+        if self.__opening is not None:
+            self.__opening.cancel()
+        for member in self.__owned:
             if isinstance(member, Composite):
-                member._drop()
+                member.__drop()
         self._abort()
 
-    def _closed_error(self) -> ClosedError:
-        reason = self._node.close_reason
+    def __closed_error(self) -> ClosedError:
+        reason = self.__node.close_reason
         why = f": the node was closed ({reason})" if reason is not None else ""
-        name = f"{type(self).__name__} {self._name}".rstrip()
-        return ClosedError(f"{name} is {self._state}, not open{why}")
+        name = f"{type(self).__name__} {self.__name}".rstrip()
+        return ClosedError(f"{name} is {self.__state}, not open{why}")
 
     def __repr__(self) -> str:
-        name = f" {self._name}" if self._name else ""
-        return f"<{type(self).__name__}{name} of {self._node.name}, {self._state}>"
+        name = f" {self.__name}" if self.__name else ""
+        return f"<{type(self).__name__}{name} of {self.__node.name}, {self.__state}>"
