@@ -1,4 +1,4 @@
-"""What a node knows of one connection, for its user and for the slave API."""
+"""Information about one connection, for users and for the slave API."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from aioros1._public import public
 
 __all__ = ["ConnectionInfo", "ConnectionStats"]
 
-# Connection ids need only be unique within a node; counting through all nodes of a
-# process costs nothing and makes logs easier to read.
+# Connection ids need only be unique within a node. One counter for all nodes of a process
+# costs nothing and makes logs easier to read.
 _ids = itertools.count(1)
 
 
@@ -22,21 +22,21 @@ class ConnectionStats:
     """Counters of one connection. They only ever grow."""
 
     messages: int = 0
-    """Messages, or service calls, that went over it."""
+    """Messages or service calls that the connection has carried."""
 
     bytes: int = 0
     """Bytes of those messages, their length prefixes included."""
 
     dropped: int = 0
-    """Messages that were dropped because the other side was too slow."""
+    """Messages dropped because the other side was too slow."""
 
 
 @public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConnectionInfo:
-    """One connection of a role, as it is now.
+    """One connection of a role.
 
-    ``stats`` goes on counting; everything else is fixed when the connection is made.
+    ``stats`` keeps counting; everything else is fixed when the connection is made.
     """
 
     id: int = field(default_factory=_ids.__next__)
@@ -49,13 +49,13 @@ class ConnectionInfo:
     """Whether messages come in, go out, or both (services)."""
 
     peer: str
-    """The caller id of the other side; of a publisher's side, the URI of its node."""
+    """The caller id of the other side; if that is a publisher, the URI of its node."""
 
     local: tuple[str, int]
-    """Address and port on our side; ``("", 0)`` if it is not over TCP."""
+    """The address and port on our side; ``("", 0)`` if the transport is not TCP."""
 
     remote: tuple[str, int]
-    """The same on the other side."""
+    """The address and port on the other side, likewise."""
 
     fileno: int
     """The file descriptor of the socket; -1 if there is none."""
@@ -70,7 +70,7 @@ class ConnectionInfo:
 
     @property
     def description(self) -> str:
-        """The text that ``rosnode info`` takes the port numbers from."""
+        """The text from which ``rosnode info`` takes the port numbers."""
         if self.transport != "TCPROS":
             return f"{self.transport} connection"
         return (

@@ -1,4 +1,4 @@
-"""Every exception this library raises on its own account.
+"""Every exception class that this library defines.
 
 ::
 
@@ -20,8 +20,8 @@
     │   └── ServiceUnavailable (ConnectionError)
     └── ClosedError
 
-Waiting too long is the builtin :class:`TimeoutError`; reading an empty queue is
-:class:`asyncio.QueueEmpty`, writing a full one :class:`asyncio.QueueFull`.
+Waiting too long raises the builtin :class:`TimeoutError`, reading an empty queue
+:class:`asyncio.QueueEmpty`, and writing to a full one :class:`asyncio.QueueFull`.
 """
 
 from __future__ import annotations
@@ -70,16 +70,16 @@ class MessageError(RosError):
 
 @public
 class MessageNotFoundError(MessageError, LookupError):
-    """No definition of that type in any of the places searched.
+    """No definition of that type was found in any of the places searched.
 
-    ``places`` are the directories, in this order; None when the definition should have
+    ``places`` are the directories, in search order; None when the definition should have
     been elsewhere.
     """
 
     def __init__(self, text: str, places: Sequence[str] | None = None) -> None:
         super().__init__(text, places)
         self.text = text
-        """What was looked for, without the places."""
+        """What was not found, without the places."""
         self.places = places
 
     def __str__(self) -> str:
@@ -92,8 +92,8 @@ class MessageNotFoundError(MessageError, LookupError):
 class MessageSpecError(MessageError):
     """A definition cannot be read.
 
-    ``path`` is the file (or the type name, for text that is in no file), ``line``
-    the number of the offending line, counted from 1 (0 when no single line is).
+    ``path`` is the file (or the type name, for text that is not from a file). ``line`` is
+    the number of the offending line, counted from 1 (0 when no single line is at fault).
     """
 
     def __init__(self, text: str, *, path: str | PathLike[str] = "", line: int = 0) -> None:
@@ -117,16 +117,16 @@ class DeserializationError(MessageError):
 
 @public
 class Md5MismatchError(MessageError):
-    """Two sides, or two roles of one node, mean different definitions by one name."""
+    """Two peers, or two roles of one node, have different definitions of the same type."""
 
 
 @public
 class MasterError(RosError):
     """The master refused a request.
 
-    ``code`` is 0 or -1 from the reply, or the code of an XML-RPC fault; ``status`` is what was
-    asked of whom, and the master's own text. ``is_refusal`` is False when it says nothing about
-    what was asked: there was a fault, or no answer of a master.
+    ``code`` is 0 or -1 from the reply, or the code of an XML-RPC fault. ``status`` describes the
+    request and its recipient, and contains the master's own text. ``is_refusal`` is False when
+    the master did not judge the request: there was a fault, or no valid answer of a master.
     """
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
@@ -141,7 +141,7 @@ class MasterError(RosError):
 
 @public
 class MasterUnreachable(MasterError, ConnectionError):
-    """Nobody answers as a master at the master's URI."""
+    """No master answers at the master's URI."""
 
     def __init__(self, status: str) -> None:
         super().__init__(-1, status, is_refusal=False)
@@ -155,17 +155,17 @@ class MasterUnreachable(MasterError, ConnectionError):
 
 @public
 class PeerError(RosError):
-    """Another node refused a request of the slave API; as :class:`MasterError`."""
+    """Another node refused a request of the slave API; like :class:`MasterError`."""
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
         super().__init__(code, status)
         self.code = code
         """0 or -1 from the answer, or the code of an XML-RPC fault."""
         self.status = status
-        """What was asked of whom, and the text of the other node."""
+        """The request and its recipient, and the other node's own text."""
         self.is_refusal = is_refusal
-        """False when the answer says nothing about what was asked: it was a fault, or none of a
-        node."""
+        """False when the node did not judge the request: there was a fault, or no valid answer
+        of a node."""
 
     def __str__(self) -> str:
         return f"{self.status} (code {self.code})"
@@ -173,7 +173,7 @@ class PeerError(RosError):
 
 @public
 class PeerUnreachable(PeerError, ConnectionError):
-    """Nobody answers at a node's URI."""
+    """No node answers at the node's URI."""
 
     def __init__(self, status: str) -> None:
         super().__init__(-1, status, is_refusal=False)
@@ -187,10 +187,10 @@ class PeerUnreachable(PeerError, ConnectionError):
 
 @public
 class HandshakeError(RosError):
-    """A TCPROS connection could not be agreed on.
+    """The handshake of a TCPROS connection failed.
 
-    ``peer`` names the other side, ``text`` is its ``error=`` text, or what we found
-    wrong with what it sent.
+    ``peer`` names the other side. ``text`` is its ``error=`` text, or what is wrong with what
+    it sent.
     """
 
     def __init__(self, peer: str, text: str) -> None:
@@ -218,9 +218,9 @@ class ServiceNotFound(ServiceError):
 
 @public
 class ServiceUnavailable(ServiceError, ConnectionError):
-    """The provider cannot be reached, or was lost before it answered."""
+    """The provider cannot be reached, or the connection was lost before it answered."""
 
 
 @public
 class ClosedError(RosError):
-    """The node or the role was closed before, or while, the operation ran."""
+    """The node or role was closed before or during the operation."""

@@ -1,4 +1,4 @@
-"""What happens to a node, as values: the items of ``async for event in node.events()``."""
+"""The events of a node: the items of ``async for event in node.events()``."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class RoleRegistered(Event):
 @public
 @dataclass(frozen=True, slots=True)
 class RoleUnregistered(Event):
-    """A role was taken back from the master, or the master could not be told."""
+    """A role was unregistered from the master, or the master could not be told."""
 
     kind: str
     """What the role is: ``publisher``, ``subscriber``, ``service`` or ``parameter``."""
@@ -58,7 +58,7 @@ class RoleUnregistered(Event):
 @public
 @dataclass(frozen=True, slots=True)
 class PeerConnected(Event):
-    """A TCPROS connection carries messages now."""
+    """A TCPROS connection now carries messages."""
 
     kind: str
     """The role on our side: ``publisher``, ``subscriber`` or ``service``."""
@@ -80,7 +80,7 @@ class PeerDisconnected(Event):
     connection: ConnectionInfo
     """The connection that ended, with its final counters."""
     reason: str = ""
-    """Why it ended, as far as that is known."""
+    """Why it ended, if known."""
 
 
 @public
@@ -88,7 +88,7 @@ class PeerDisconnected(Event):
 class ParamUpdate(Event):
     """A followed parameter, or a part of it, was set or deleted.
 
-    ROS 1 announces a deleted parameter as ``{}``, like one that is set to that.
+    ROS 1 announces a deleted parameter as ``{}``, like one that is set to ``{}``.
     """
 
     key: str
@@ -100,19 +100,19 @@ class ParamUpdate(Event):
 @public
 @dataclass(frozen=True, slots=True)
 class MasterLost(Event):
-    """The master has not answered a heartbeat. Topics that flow go on flowing."""
+    """The master has not answered a heartbeat. Connected topics keep working."""
 
     uri: str
-    """The URI that does not answer."""
+    """The URI of the master."""
     reason: str
-    """The error of the heartbeat."""
+    """The error that the heartbeat got."""
 
 
 @public
 @dataclass(frozen=True, slots=True)
 class MasterRestarted(Event):
-    """The master is back, was replaced, or was told that this node has another address; it
-    has all registrations again."""
+    """The master is back, was replaced, or was told this node's new address. It has all
+    registrations again."""
 
     uri: str
     """The URI of the master."""
@@ -123,10 +123,10 @@ class MasterRestarted(Event):
 @public
 @dataclass(frozen=True, slots=True)
 class ClockJumped(Event):
-    """The time of the node has jumped: ``/clock`` went backwards, as when a simulation or a
-    bag starts over, or the node began or ceased to follow it.
+    """The time of the node has jumped. ``/clock`` went backwards, as when a simulation or a
+    bag starts over, or the node started or stopped following it.
 
-    Whoever keeps stamped data forgets it then.
+    Discard any stamped data you keep.
     """
 
     before: Time
@@ -139,15 +139,15 @@ T = TypeVar("T")
 
 
 class Broadcast(Generic[T]):
-    """Gives every item to all who iterate at that moment.
+    """Gives every item to all current iterators.
 
-    Each has a queue of its own, of ``size`` items; the oldest go first. All iterations
-    end when it is closed, with the items that came before.
+    Each has its own queue of ``size`` items and drops the oldest when it is full. When the
+    broadcast closes, the iterations end after the items that came before.
     """
 
     def __init__(self, size: int = 1000) -> None:
         self._size = size
-        # Weak, so that a loop that was left needs no farewell.
+        # Weak references, so that a loop that was left need not unsubscribe.
         self._streams: WeakSet[EventStream[T]] = WeakSet()
         self._closed = False
 
@@ -161,7 +161,7 @@ class Broadcast(Generic[T]):
             stream._close()
 
     def subscribe(self) -> EventStream[T]:
-        """An iterator over what is published from now on."""
+        """Return an iterator over the items published from now on."""
         stream: EventStream[T] = EventStream(self._size)
         self._streams.add(stream)
         if self._closed:
@@ -173,13 +173,13 @@ class Broadcast(Generic[T]):
 class EventStream(Generic[T]):
     """An asynchronous iterator over events; made by :meth:`aioros1.Node.events`.
 
-    Up to a thousand events wait in it to be taken; then the oldest go first. It ends with
-    the node, after the events that came before.
+    It queues up to a thousand events, then drops the oldest. It ends with the node, after the
+    events that came before.
     """
 
     def __init__(self, size: int) -> None:
         self.dropped = 0
-        """Items that were lost, because they were not taken and others came."""
+        """Items dropped because the queue was full."""
         self._queue: deque[T] = deque(maxlen=size)
         self._waiters = Waiters()
         self._closed = False

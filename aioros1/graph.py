@@ -1,4 +1,4 @@
-"""The graph: which nodes there are, and what each publishes, receives and provides."""
+"""The ROS graph: its nodes, and what each publishes, receives and provides."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ __all__ = ["Graph", "GraphChange", "GraphChanges", "GraphNode", "GraphSnapshot"]
 @public
 @dataclass(frozen=True, slots=True)
 class GraphNode:
-    """What one node is registered for: names of topics and services."""
+    """The topics and services that one node is registered for."""
 
     publishes: frozenset[str]
-    """Topics that it publishes."""
+    """Topics that the node publishes."""
     subscribes: frozenset[str]
-    """Topics that it receives."""
+    """Topics that the node receives."""
     provides: frozenset[str]
-    """Services that it provides."""
+    """Services that the node provides."""
 
 
 @public
@@ -39,7 +39,7 @@ class GraphSnapshot:
     services: Mapping[str, frozenset[str]]
     """Service to the names of the nodes that provide it."""
     topic_types: Mapping[str, str]
-    """Topic to the type that was announced for it."""
+    """Topic to its announced type."""
 
     @property
     def nodes(self) -> frozenset[str]:
@@ -54,8 +54,8 @@ class GraphSnapshot:
 
     @property
     def edges(self) -> frozenset[tuple[str, str, str]]:
-        """(publisher, topic, subscriber) for all that should be connected, as rqt_graph draws
-        it. A node that hears itself is among them."""
+        """(publisher, topic, subscriber) for all nodes that should be connected, as rqt_graph
+        draws them. This includes nodes that subscribe to their own topics."""
         return frozenset(
             (publisher, topic, subscriber)
             for topic, publishers in self.publishers.items()
@@ -64,7 +64,7 @@ class GraphSnapshot:
         )
 
     def node(self, name: str) -> GraphNode:
-        """What the node of that full name does; nothing, if there is none."""
+        """What the node of that full name does; empty if there is no such node."""
         parts = (self.publishers, self.subscribers, self.services)
         return GraphNode(
             *(frozenset(each for each, nodes in part.items() if name in nodes) for part in parts)
@@ -87,7 +87,7 @@ class GraphSnapshot:
 @public
 @dataclass(frozen=True, slots=True)
 class GraphChange:
-    """What is different from one snapshot to the next."""
+    """The difference between one snapshot and the next."""
 
     snapshot: GraphSnapshot
     """The graph after the change."""
@@ -95,15 +95,15 @@ class GraphChange:
     """(kind, name, node) for each new registration; kinds are ``publisher``,
     ``subscriber`` and ``service``."""
     removed: frozenset[tuple[str, str, str]]
-    """The same for each registration that is gone."""
+    """(kind, name, node) for each registration that is gone."""
 
 
 @public
 class Graph:
     """The graph that a node belongs to: ``node.graph``.
 
-    The master announces new publishers to subscribers and nothing else to anybody, so
-    following the graph means asking again and again.
+    The master tells subscribers about new publishers and announces nothing else, so following
+    the graph requires polling.
     """
 
     def __init__(self, context: Context) -> None:
@@ -113,7 +113,7 @@ class Graph:
         return f"<Graph of the master at {self._context.master.uri}>"
 
     async def snapshot(self) -> GraphSnapshot:
-        """The graph now. Raises :class:`~aioros1.MasterError`."""
+        """Return the current graph. Raises :class:`~aioros1.MasterError`."""
         master = self._context.master
         state = await master.get_system_state()
         types = await master.get_topic_types()
@@ -123,8 +123,8 @@ class Graph:
         return GraphSnapshot(publishers, subscribers, services, dict(types))
 
     def changes(self, poll: float = 1.0) -> GraphChanges:
-        """Iterate over what has changed since the iteration began, looking every ``poll``
-        seconds. Ends when the node is closed.
+        """Iterate over changes since the iteration began, polling every ``poll`` seconds. The
+        iteration ends when the node closes.
 
         Raises :class:`ValueError` for a ``poll`` that is not positive.
         """
@@ -154,8 +154,8 @@ class Graph:
 class GraphChanges:
     """An iterator over the changes of a graph; made by :meth:`Graph.changes`.
 
-    It can be gone on with after an error, or when it was cancelled: what has changed
-    meanwhile is in the next change.
+    You can continue it after an error or a cancellation: the next change includes everything
+    that has changed meanwhile.
     """
 
     def __init__(self, graph: Graph, poll: float) -> None:
@@ -168,7 +168,7 @@ class GraphChanges:
         return self
 
     async def __anext__(self) -> GraphChange:
-        """The next change. Raises :class:`~aioros1.MasterError`."""
+        """Wait for the next change. Raises :class:`~aioros1.MasterError`."""
         context = self._graph._context
         try:
             if self._before is None and not self._has_ended:
@@ -186,7 +186,7 @@ class GraphChanges:
         raise StopAsyncIteration
 
     async def aclose(self) -> None:
-        """End the iteration. There is no need to: nothing is held."""
+        """End the iteration. You need not call this: the iterator holds no resources."""
         self._has_ended = True
 
     def __repr__(self) -> str:

@@ -4,9 +4,9 @@ A name is global (``/camera/image``), relative (``image``) or private (``~rate``
 Relative names belong to the namespace of the node, private ones to the node itself.
 Resolved names start with a slash, have no empty parts and no slash at the end.
 
-The programs of ROS 1 accept far more names than the documentation allows
-(``/1abc``, ``/a-b``, ``/ü``), and robots in the field use them, so this module refuses
-what no master accepts: nothing at all, ``/`` itself, a blank, a colon.
+ROS 1 programs accept far more names than the documentation allows (``/1abc``, ``/a-b``,
+``/ü``), and robots in the field use them. This module therefore refuses only what no master
+accepts: the empty name, ``/`` itself, blanks and colons.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def namespace_of(name: str) -> str:
 
 
 def normalize_namespace(namespace: str) -> str:
-    """A namespace in its resolved form: ``foo`` is ``/foo``, nothing is ``/``.
+    """Return a namespace in its resolved form: ``/foo`` for ``foo``, ``/`` for an empty one.
 
     Raises :class:`InvalidNameError` for a private name, blanks and colons.
     """
@@ -89,10 +89,10 @@ def join(namespace: str, name: str) -> str:
 
 
 def validate(name: str, what: str = "name") -> str:
-    """``name`` itself, if a master would accept it, resolved or not.
+    """Return ``name`` if a master would accept it, resolved or not.
 
-    ``what`` says what the name is for, for the text of the error. Raises
-    :class:`InvalidNameError`, and :class:`TypeError` for what is not a string.
+    ``what`` says in the error text what the name is for. Raises :class:`InvalidNameError`,
+    and :class:`TypeError` for anything but a string.
     """
     text = _text(name, what)
     if " " in text or ":" in text or not text.strip("/"):
@@ -104,10 +104,10 @@ def validate(name: str, what: str = "name") -> str:
 
 
 def validate_base_name(name: str, what: str = "node name") -> str:
-    """``name`` itself, if it can be the last part of a node's name.
+    """Return ``name`` if it can be the last part of a node's name.
 
-    The namespace of a node is given apart from its name, so slashes are refused here.
-    Raises as :func:`validate` does.
+    The namespace of a node is given separately, so slashes are refused here. Raises as
+    :func:`validate` does.
     """
     text = _text(name, what)
     if not text or any(char in text for char in "/~ :"):
@@ -131,12 +131,12 @@ def resolve_name(
     *,
     what: str = "name",
 ) -> str:
-    """The resolved form of ``name``, as the node ``node_name`` means it.
+    """Resolve ``name`` as the node ``node_name`` means it.
 
-    ``namespace`` and ``node_name`` are resolved themselves (``/ns`` and ``/ns/node``);
-    ``remappings`` are those of :func:`resolve_remappings`, compared with the name once it
-    is resolved, so that ``scan:=laser`` is found for ``/ns/scan`` as well. Raises as
-    :func:`validate` does; ``what`` is for its text.
+    ``namespace`` and ``node_name`` must be resolved (``/ns`` and ``/ns/node``).
+    ``remappings`` come from :func:`resolve_remappings` and apply to the resolved name, so
+    ``scan:=laser`` applies to ``/ns/scan`` as well. Raises as :func:`validate` does; ``what``
+    is for the error text.
     """
     resolved = _resolve(validate(name, what), namespace, node_name)
     return remappings.get(resolved, resolved)
@@ -145,9 +145,9 @@ def resolve_name(
 def resolve_remappings(
     remappings: Mapping[str, str], namespace: str, node_name: str
 ) -> dict[str, str]:
-    """Remappings with both sides resolved, as :func:`resolve_name` wants them.
+    """Resolve both sides of remappings, as :func:`resolve_name` expects.
 
-    Raises as :func:`validate` does, with the remapping.
+    Raises as :func:`validate` does; the error text contains the remapping.
     """
     resolved = {}
     for source, target in remappings.items():
@@ -161,10 +161,10 @@ def resolve_remappings(
 
 
 def resolve_from(name: str, caller_id: str) -> str:
-    """``name`` as the node called ``caller_id`` means it, refusing nothing.
+    """Resolve ``name`` as the node ``caller_id`` means it, refusing nothing.
 
-    This is what masters do with the names they are sent: ``caller_id`` is whatever the
-    caller says it is. The empty name is its namespace, with a slash at the end.
+    This is what masters do with the names they receive: ``caller_id`` is whatever the
+    caller claims. An empty name resolves to its namespace, with a slash at the end.
     """
     if not name:
         return _namespace_prefix(caller_id)
@@ -178,7 +178,7 @@ def resolve_from(name: str, caller_id: str) -> str:
 
 
 def anonymous_name(base: str) -> str:
-    """A name nobody else has: ``base``, the host, the process and a random number."""
+    """Return a unique name made of ``base``, the host, the process and a random number."""
     host = re.sub(r"[^0-9A-Za-z]", "_", platform.node())
     return f"{validate_base_name(base)}_{host}_{os.getpid()}_{random.getrandbits(48)}"
 
@@ -206,9 +206,9 @@ _ASSIGNMENT = re.compile(r"([~/A-Za-z_][\w/]*):=(.*)", re.DOTALL)
 def parse_args(argv: Iterable[str]) -> Arguments:
     """Sort the words of a command line (with or without the program's name).
 
-    Words such as ``--a:=b`` are no remappings and stay in ``rest``. The last of several
+    Words such as ``--a:=b`` are not remappings and stay in ``rest``. The last of several
     assignments to one name wins. Raises :class:`InvalidNameError` for a remapping to
-    nothing (``a:=``), and :class:`TypeError` for what is no list of words.
+    nothing (``a:=``), and :class:`TypeError` for anything but a list of words.
     """
     if isinstance(argv, str | bytes):
         raise TypeError(f"a command line is a list of words, not one: {argv!r}")

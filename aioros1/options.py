@@ -24,16 +24,16 @@ Overflow = Literal["drop_oldest", "drop_newest", "block"]
 """What happens to a message when a queue is full."""
 
 OnError = Literal["raise", "log"] | Callable[[Exception], object]
-"""What becomes of an exception that a user's callback raises where nobody awaits it."""
+"""What happens to an exception in a user's callback that nobody awaits."""
 
 LocalTransport = Literal["intraprocess", "unix"]
-"""A way for messages between nodes of this library: within one event loop, within one host."""
+"""A transport between nodes of this library, within one event loop or within one host."""
 
 LOCAL_TRANSPORTS: tuple[LocalTransport, ...] = ()
 """The default of the option ``local_transports``."""
 
 DEFAULT_QUEUE_SIZE = 10
-"""Messages that wait in the queue of a publisher or a subscriber by default."""
+"""The default queue size of a publisher or subscriber, in messages."""
 
 
 @public
@@ -42,7 +42,7 @@ class Timeouts:
     """How long a node waits for others, in seconds."""
 
     connect: float = 5.0
-    """For a TCP connection to a peer to be established."""
+    """For connecting to a peer over TCP."""
 
     handshake: float = 10.0
     """For a peer to send its whole connection header."""
@@ -51,15 +51,15 @@ class Timeouts:
     """For the answer of a master or a node to one XML-RPC request."""
 
     close: float = 3.0
-    """For everything :meth:`Node.close` has to say to others, in all."""
+    """For everything that :meth:`Node.close` has to tell others, in total."""
 
     stall: float = 30.0
-    """For a peer that takes nothing of what is sent to it, before it is cut off."""
+    """For a peer that reads nothing of what is sent to it, before it is disconnected."""
 
     keepalive: float = 60.0
-    """For a peer that is silent, before TCP asks it for a sign of life, and then again and
-    again. One that gives none for two and a half times as long, or for ``stall`` if that is
-    longer, is taken for dead. Whole seconds, at least 1."""
+    """For a silent peer, before TCP starts to send it keepalive probes. A peer that does not
+    answer for two and a half times as long, or for ``stall`` if that is longer, is considered
+    dead. Whole seconds, at least 1."""
 
 
 @public
@@ -67,64 +67,64 @@ class Timeouts:
 class Limits:
     """How much a node or a master accepts from others.
 
-    A host is an address: of the machines behind one router, only the router's is seen. What
-    comes over Unix sockets, or from the same event loop, counts in ``connections`` alone.
+    A host is an address: all machines behind one NAT router count as one host. Connections
+    over Unix sockets, or within one event loop, count only in ``connections``.
 
     Raises :class:`ValueError` for a limit that is not a positive number.
     """
 
     header_bytes: int = 1 << 20
-    """A connection header. It carries the full message definition, which is over
+    """Bytes of a connection header. It carries the full message definition, which is over
     100 kB for the largest types in use."""
 
     header_fields: int = 256
-    """Fields of a connection header; the programs of ROS 1 send about eight."""
+    """Fields of a connection header. ROS 1 programs send about eight."""
 
     message_bytes: int = 1_000_000_000
-    """One message or service request; the limit of roscpp."""
+    """Bytes of one message or service request; the same limit as in roscpp."""
 
     connections: int = 10_000
-    """TCPROS connections accepted at a time; those beyond are closed at once. More than any
-    node of a real graph has, and few enough for their memory."""
+    """TCPROS connections open at a time; further ones are closed at once. The default is more
+    than any node of a real graph has, and few enough to fit in memory."""
 
     connections_per_host: int = 5_000
-    """The same for those that come from one host, for TCPROS and for XML-RPC each: half of
+    """Connections from one host, separately for TCPROS and XML-RPC. The default is half of
     ``connections``, so that no single host can shut out all others. A graph of hundreds of
-    nodes on one machine stays far below."""
+    nodes on one machine stays far below it."""
 
     xmlrpc_connections: int = 10_000
-    """XML-RPC connections accepted at a time. A master has one or two with each node, and
-    these are kept for an hour after their last request."""
+    """XML-RPC connections open at a time. A master has one or two with each node, and keeps
+    them for an hour after their last request."""
 
     xmlrpc_bytes: int = 64 << 20
-    """The body of an XML-RPC request or answer: robot descriptions and maps travel
+    """Bytes of the body of an XML-RPC request or answer. Robot descriptions and maps go
     through the parameter server."""
 
     xmlrpc_depth: int = 100
-    """Arrays and structs inside one another in an XML-RPC value. Parameters of robots have
-    up to ten."""
+    """Nesting depth of arrays and structs in an XML-RPC value. Parameters of robots reach up
+    to ten."""
 
     xmlrpc_values: int = 250_000
-    """Values in one XML-RPC request or answer, arrays and structs included. Reading one
-    takes 1 to 8 µs whatever its size, during which the event loop does nothing else:
-    ``xmlrpc_bytes`` of the smallest would be ten seconds of it, this is one or two. All
-    parameters of a large robot are some ten thousand, the state of a graph of a thousand
-    nodes a hundred thousand, and a robot description, of whatever size, is one."""
+    """Values in one XML-RPC request or answer, including arrays and structs. Reading a value
+    blocks the event loop for 1 to 8 µs, whatever its size: ``xmlrpc_bytes`` of the smallest
+    values would block it for ten seconds, this limit for one or two. All parameters of a large
+    robot are some ten thousand values, the state of a graph of a thousand nodes is a hundred
+    thousand, and a robot description of any size is one."""
 
     xmlrpc_timeout: float = 30.0
-    """Seconds for the whole of one XML-RPC request to arrive: enough for the largest over
-    a slow network."""
+    """Seconds for one whole XML-RPC request to arrive. The default is enough for the largest
+    request over a slow network."""
 
     requests_per_second: float | None = None
-    """XML-RPC requests of one host that are answered, on the average; each call in a
-    ``system.multicall`` is one. Those beyond wait for their turn, and are not refused,
-    since a node whose registration is refused gives up; those whose sender has gone
+    """XML-RPC requests answered per host and second, on average. Each call in a
+    ``system.multicall`` counts as one. Further requests wait and are not refused, since a
+    node gives up when its registration is refused. Requests whose sender has disconnected
     meanwhile are dropped. By default there is no such limit: roslaunch starts hundreds of
-    nodes on one host, and each asks for dozens of things at its start."""
+    nodes on one host, and each sends dozens of requests when it starts."""
 
     requests_burst: int = 2_000
-    """Requests of one host that are answered at once before ``requests_per_second`` holds,
-    after a time of rest: what a hundred nodes ask for when they are started."""
+    """Requests from an idle host that are answered at once before ``requests_per_second``
+    applies. The default is what a hundred nodes send when they start."""
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -138,7 +138,7 @@ class Limits:
                 raise ValueError(f"limits.{field.name} must be {expected}, got {value!r}")
 
 
-# Of these a wrong value would be noticed late, or never: "no" is true.
+# A wrong value of these would be noticed late or never: "no" is true.
 _KINDS: dict[str, tuple[Any, str]] = {
     "host": (str | None, "a str or None"),
     "bind": (str | None, "a str or None"),
@@ -155,44 +155,44 @@ _KINDS: dict[str, tuple[Any, str]] = {
 @public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeOptions:
-    """What a node was made with; see :class:`Node` for the meaning of each."""
+    """The options a node was created with; :class:`Node` explains each of them."""
 
     namespace: str | None = None
     """The namespace; None for ``ROS_NAMESPACE``."""
     master_uri: str | None = None
     """The master; None for ``ROS_MASTER_URI``."""
     host: str | None = None
-    """What others are told to connect to; None to find out."""
+    """The host to announce to others; None to find it."""
     bind: str | None = None
     """The address to listen on; None for what ``host`` implies."""
     allow: Collection[str] | None = None
-    """The networks from which connections are taken; None for all."""
+    """The networks from which connections are accepted; None for all."""
     xmlrpc_port: int = 0
-    """The port of the slave API; 0 takes a free one."""
+    """The port of the slave API; 0 for a free one."""
     tcpros_port: int = 0
-    """The port for topics and services; 0 takes a free one."""
+    """The port for topics and services; 0 for a free one."""
     argv: tuple[str, ...] | None = None
     """The command line; None for none."""
     remap: Mapping[str, str] | None = None
-    """Names to be replaced, and by what."""
+    """Names to replace, and their replacements."""
     anonymous: bool = False
     """Whether the name was made unique."""
     rosout: bool | Collection[str] = True
-    """Whether ``node.log`` goes to ``/rosout``; or the names of loggers that go there too."""
+    """Whether ``node.log`` goes to ``/rosout``, or the names of loggers that go there too."""
     logger_services: bool = True
     """Whether the node provides ``~get_loggers`` and ``~set_logger_level``."""
     use_sim_time: bool | None = None
     """Whether the node follows ``/clock``; None for what the parameter says."""
     heartbeat: float | None = 1.0
-    """Seconds between two looks after the master; None for none."""
+    """Seconds between two checks of the master; None for no checks."""
     timeouts: Timeouts = Timeouts()
     """How long the node waits for others."""
     limits: Limits = Limits()
     """How much the node accepts from others."""
     on_error: OnError = "raise"
-    """What becomes of an exception in a callback."""
+    """What happens to an exception in a callback."""
     local_transports: Collection[LocalTransport] = LOCAL_TRANSPORTS
-    """How topics may go past TCP."""
+    """The transports that topics may use instead of TCP."""
 
     def __post_init__(self) -> None:
         for name, (kind, expected) in _KINDS.items():
@@ -220,12 +220,12 @@ def _check_rosout(rosout: object) -> None:
         raise ValueError(f"rosout must be True, False or names of loggers, got {rosout!r}")
     for name in rosout:
         if not isinstance(name, str) or name in ("", "root"):
-            # All that anybody in the process logs: not for the graph to hear, nor to set.
+            # The graph must not read everything the process logs, nor set its level.
             raise ValueError(f"rosout must name loggers other than the root, got {name!r}")
 
 
 def check_queue(queue_size: int, overflow: str) -> None:
-    """Raise :class:`ValueError` for options of a queue that mean nothing."""
+    """Raise :class:`ValueError` for invalid queue options."""
     if not isinstance(queue_size, int) or queue_size < 1:
         raise ValueError(
             f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}"

@@ -1,4 +1,4 @@
-"""For programs that are one node: started from a shell, ended by a signal."""
+"""Running a program that is a single node, started from a shell and ended by a signal."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ T = TypeVar("T")
 
 
 _GRACE = 1.0
-"""Seconds that ``main`` has to return once its node is closed, before it is cancelled."""
+"""Seconds that ``main`` has to return after its node closes, before it is cancelled."""
 
 
 @public
@@ -30,18 +30,17 @@ def run(
     loop_factory: Callable[[], asyncio.AbstractEventLoop] | None = None,
     **node_options: Any,
 ) -> T | None:
-    """Run ``main(node)`` in a node and an event loop of its own; what it returns.
+    """Run ``main(node)`` with a new node in a new event loop, and return its result.
 
-    ``name`` is the script's by default. The command line of the script is the node's,
-    unless ``argv`` is among the options; what the node logs is written to the file that
-    its ``__log:=`` names. ``loop_factory`` is that of
-    :class:`asyncio.Runner`, as ``uvloop.new_event_loop``.
+    ``name`` defaults to the name of the script. The node uses the script's command line,
+    unless ``argv`` is among the options. The node's log is also written to the file that
+    ``__log:=`` names. ``loop_factory`` is passed to :class:`asyncio.Runner`, for example
+    ``uvloop.new_event_loop``.
 
-    SIGINT and SIGTERM close the node. Loops over roles and rates end then, and with
-    them, usually, ``main``; if it does not, it is cancelled, and None is returned. A
-    second signal cancels it at once. While the node still starts, a signal ends that, and
-    None is returned. Only for scripts: this is the one place of the library that touches
-    signals.
+    SIGINT and SIGTERM close the node. Loops over roles and rates then end, and ``main``
+    usually returns; if it does not, it is cancelled, and the result is None. A second signal
+    cancels it at once. A signal while the node starts stops the start, and the result is None.
+    Use this function only in scripts: no other part of the library touches signals.
     """
     if name is None:
         name = Path(sys.argv[0]).stem or "aioros1"
@@ -60,7 +59,7 @@ async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T 
                 await asyncio.wait({task})
             except asyncio.CancelledError:
                 task.cancel()
-                # While the node is open, for it may be needed to clean up.
+                # While the node is open, since clean-up may need it.
                 with contextlib.suppress(Exception, asyncio.CancelledError):
                     await task
                 raise
@@ -74,20 +73,20 @@ async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T 
 
 
 class _Signals:
-    """What SIGINT and SIGTERM mean while a script runs, from the start of its node to the
-    end of its closing."""
+    """Handles SIGINT and SIGTERM while a script runs, from the start of its node until the
+    node is closed."""
 
     def __init__(self, node: Node) -> None:
         self.received = False
         self.main: asyncio.Task[Any] | None = None
-        """None while the node is started, which is then given up."""
+        """The task of ``main``; None while the node starts, when a signal stops the start."""
         self._node = node
         self._starting = asyncio.current_task()
         self._loop = asyncio.get_running_loop()
         self._ending: asyncio.Task[None] | None = None
         self._numbers: list[signal.Signals] = []
         for number in (signal.SIGINT, signal.SIGTERM):
-            # Neither on Windows nor in other threads than the main one.
+            # Not available on Windows, or outside the main thread.
             with contextlib.suppress(NotImplementedError, ValueError, RuntimeError):
                 self._loop.add_signal_handler(number, self._receive)
                 self._numbers.append(number)
@@ -114,7 +113,7 @@ class _Signals:
 
 @contextlib.contextmanager
 def _log_file(node: Node) -> Iterator[None]:
-    """Write the log to the file that the command line names, if it does and that can be done."""
+    """Write the log to the file that the command line names, if it names one and that works."""
     if node.log_file is None:
         yield
         return

@@ -1,1 +1,1 @@
-"""The time of a node, and what goes by it."""
+"""The time of a node, and the rates and timers that follow it."""

@@ -16,41 +16,40 @@ __all__ = ["Clock", "to_nanoseconds"]
 class Clock:
     """Tells the time and waits for it.
 
-    While time is simulated it is what ``/clock`` said last, zero before that, and
-    waiting goes by it. When it jumps backwards, because a simulation or a bag starts
-    over, whoever waits goes on at once: the time waited for may never come. The same
-    holds when time becomes simulated, or is so no more. Of each of these jumps ``on_jump`` is
-    told, with the nanoseconds before and after.
+    Simulated time is the latest time from ``/clock``, zero before the first. Waiting follows
+    it. When it jumps backwards, because a simulation or a bag starts over, all waits end at
+    once: the time they wait for may never come. The same happens when time starts or stops
+    being simulated. ``on_jump`` is called with the nanoseconds before and after each jump.
     """
 
     def __init__(self, on_jump: Callable[[int, int], object] | None = None) -> None:
         self.is_simulated = False
-        """Whether the time is that of ``/clock``."""
+        """Whether the clock follows ``/clock``."""
         self._simulated = 0
         self._changed = Waiters()
-        self._awaited: list[int] = []  # by those who wait for simulated time
+        self._awaited: list[int] = []  # the simulated times that are waited for
         self._on_jump = on_jump
 
     def nanoseconds(self) -> int:
-        """Nanoseconds since the epoch, or of the simulation."""
+        """The time in nanoseconds since the epoch, or of the simulation."""
         return self._simulated if self.is_simulated else time.time_ns()
 
     def simulate(self) -> None:
-        """From now on the time is what :meth:`set` says."""
+        """Follow the time given to :meth:`set` from now on."""
         if not self.is_simulated:
             before = self.nanoseconds()
             self.is_simulated = True
             self._jumped(before)
 
     def stop_simulating(self) -> None:
-        """From now on the time is that of the wall clock."""
+        """Follow the wall clock from now on."""
         before = self.nanoseconds()
         self.is_simulated = False
         self._simulated = 0
         self._jumped(before)
 
     def set(self, now: Time) -> None:
-        """Simulated time has come to ``now``."""
+        """Set the simulated time."""
         before, self._simulated = self._simulated, now.to_nsec()
         if self.is_simulated and self._simulated < before:
             self._jumped(before)
@@ -64,7 +63,7 @@ class Clock:
 
     @property
     def next_awaited(self) -> int | None:
-        """The earliest moment of simulated time that somebody waits for, in nanoseconds."""
+        """The earliest simulated time that is waited for, in nanoseconds; None if none is."""
         return min(self._awaited, default=None)
 
     async def wait_until_shows(self, moment: int, *, timeout: float | None) -> None:
@@ -76,11 +75,11 @@ class Clock:
         )
 
     def fail(self, error: BaseException) -> None:
-        """No more time comes; whoever waits for it gets ``error``."""
+        """Stop the clock: everyone who waits for it gets ``error``."""
         self._changed.fail(error)
 
     def check(self) -> None:
-        """Raise what :meth:`fail` was given, if it was."""
+        """Raise the error given to :meth:`fail`, if any."""
         self._changed.check()
 
     async def sleep(self, duration: float | Duration) -> None:
@@ -89,17 +88,17 @@ class Clock:
         await self.wait_until(await self.begin() + nanoseconds)
 
     def steady(self) -> int:
-        """What waiting goes by. Not the wall clock, which can be set."""
+        """The nanoseconds that waiting follows: not the wall clock's, which can be set."""
         return self._simulated if self.is_simulated else time.monotonic_ns()
 
     async def begin(self) -> int:
-        """The time from which to wait: not before there is any."""
+        """Return the time from which to wait, as soon as there is any."""
         while self.is_simulated and not self._simulated:
             await self._changed.wait()
         return self.steady()
 
     async def wait_until(self, moment: int) -> None:
-        """Wait until :meth:`steady` has come to ``moment``."""
+        """Wait until :meth:`steady` reaches ``moment``."""
         if self.is_simulated:
             last = self._simulated
             self._awaited.append(moment)
@@ -111,15 +110,15 @@ class Clock:
                 self._awaited.remove(moment)
             return
         if moment <= self.steady():
-            await asyncio.sleep(0)  # others want to run all the same
+            await asyncio.sleep(0)  # let other tasks run
         while not self.is_simulated and (left := moment - self.steady()) > 0:
-            # Nothing changes the wall clock but the end of the node. The timers of loops are
-            # a millisecond coarse; uvloop's end at once if there is less than half of one.
+            # While time is not simulated, only the end of the node wakes this up early. Timers
+            # of event loops are a millisecond coarse; uvloop's end at once below half of one.
             await self._changed.wait(max(left / 1e9, 1e-3))
 
 
 def to_nanoseconds(duration: float | Duration) -> int:
-    """To the nearest one; exactly for a :class:`~aioros1.Duration`."""
+    """Round to the nearest nanosecond; exact for a :class:`~aioros1.Duration`."""
     if isinstance(duration, Duration):
         return duration.to_nsec()
     if not math.isfinite(duration):

@@ -1,4 +1,4 @@
-"""Doing something so many times a second."""
+"""Repeating a loop at a fixed rate."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ __all__ = ["Rate", "period_of"]
 
 @public
 class Rate:
-    """An iterator over the times at which a period begins; made by :meth:`aioros1.Node.rate`.
+    """Iterates over the times at which periods begin; made by :meth:`aioros1.Node.rate`.
 
-    The phase is kept: a body that takes a while shortens the pause after it, and one
-    that takes longer than a period makes the ticks it missed be skipped. By the wall
-    clock one that is missed by less than a period comes late instead, as in rospy:
-    timers are a millisecond coarse, and a kilohertz would lose every tenth tick.
+    The rate keeps its phase: a slow loop body shortens the pause after it, and a body that
+    takes longer than a period skips the ticks it missed. With the wall clock, a tick missed by
+    less than a period comes late instead, as in rospy: timers are a millisecond coarse, so a
+    rate of 1 kHz would lose every tenth tick.
     """
 
-    # Not a generator: the first cancellation, or a time limit of one tick, would end that.
+    # Not a generator: the first cancellation, or a timeout around one tick, would end it.
 
     def __init__(self, clock: Clock, period: int) -> None:
         self.missed = 0
-        """Ticks that were skipped so far. Those of the latest pause are counted when the
-        next tick is asked for."""
+        """Ticks skipped so far. Those skipped by the current loop body are counted when it
+        asks for the next tick."""
         self._clock = clock
         self._period = max(1, period)
         self._is_simulated = clock.is_simulated
         self._tick: int | None = None
-        """When the period that is waited for, or that runs, has begun or will begin."""
+        """The start of the period that runs or that is waited for."""
         self._was_given = False
         self._has_ended = False
 
@@ -47,14 +47,14 @@ class Rate:
             if self._has_ended:
                 raise StopAsyncIteration
             await self._wait()
-            clock.check()  # no tick for a node whose roles are closed already
+            clock.check()  # no tick once the roles of the node are closed
         except ClosedError:
             raise StopAsyncIteration from None
         self._was_given = True
         return Time.from_nsec(clock.nanoseconds())
 
     async def aclose(self) -> None:
-        """End the iteration. There is no need to: nothing is held."""
+        """End the iteration. You need not call this: the iterator holds no resources."""
         self._has_ended = True
 
     def __repr__(self) -> str:
@@ -63,7 +63,7 @@ class Rate:
     async def _wait(self) -> None:
         clock = self._clock
         while True:
-            if self._is_simulated is not clock.is_simulated:  # another time: begin again
+            if self._is_simulated is not clock.is_simulated:  # the clock changed: start over
                 self._is_simulated = clock.is_simulated
                 self._tick = None
             if self._tick is None:
@@ -78,7 +78,7 @@ class Rate:
     def _next(self, tick: int) -> int:
         clock, period = self._clock, self._period
         now = clock.steady()
-        if now < tick:  # a jump backwards: a new phase
+        if now < tick:  # a jump backwards: start a new phase
             tick = now
         missed = (now - tick) // period
         if missed == 1 and not clock.is_simulated:
@@ -88,7 +88,7 @@ class Rate:
 
 
 def period_of(hz: float) -> int:
-    """The nanoseconds of one. Raises :class:`ValueError` for a rate that is not positive."""
+    """The period in nanoseconds. Raises :class:`ValueError` for a rate that is not positive."""
     if not 0 < hz < math.inf or not math.isfinite(period := 1e9 / float(hz)):
         raise ValueError(f"a rate must be positive, got {hz!r}")
     return round(period)

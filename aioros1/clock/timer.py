@@ -1,4 +1,4 @@
-"""Having a function called again and again."""
+"""Calling a function periodically."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Spawn(Protocol):
 
 @public
 class Timer:
-    """Calls a function again and again; made by :meth:`aioros1.Node.timer`."""
+    """Calls a function periodically; made by :meth:`aioros1.Node.timer`."""
 
     def __init__(
         self,
@@ -51,7 +51,7 @@ class Timer:
         self._loop_state = loop_state()
 
     def cancel(self) -> None:
-        """Call the function no more; a call that runs is cancelled."""
+        """Stop calling the function, and cancel a call that is running."""
         self._loop_state.check_thread("Timer.cancel()")
         self._task.cancel()
 
@@ -61,7 +61,7 @@ class Timer:
                 result = self._callback(now)
                 if asyncio.iscoroutine(result) or asyncio.isfuture(result):
                     await result
-            except Exception as error:  # the user's code; what becomes of it is an option
+            except Exception as error:  # from the user's code; ``on_error`` decides
                 self._on_error(error, "the callback of a timer")
             if self._oneshot:
                 return

@@ -1,4 +1,4 @@
-"""Where a node listens, as others are told."""
+"""The addresses a node announces to others."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ __all__ = ["Address"]
 
 
 class Address:
-    """The host and the ports of one node. The node fills them in while it starts."""
+    """The host and ports of one node. The node fills them in while it starts."""
 
     def __init__(self, node_name: str, host: str | None) -> None:
         self._node_name = node_name
         self.known_host = host
-        """What others are told to connect to; None until the node has found it."""
+        """The host the node announces; None until the node has found it."""
         self.xmlrpc_port = 0
         self.tcpros_port = 0
 
     @property
     def host(self) -> str:
-        """What others are told to connect to.
+        """The host the node announces to others.
 
         Raises :class:`RuntimeError` before the node has found it.
         """
@@ -34,10 +34,10 @@ class Address:
 
     @property
     def tcpros(self) -> tuple[str, int]:
-        """Host and port for topics and services."""
+        """The host and port for topics and services."""
         return self.host, self.tcpros_port
 
     @property
     def tcpros_uri(self) -> str:
-        """The same for services, as the master is told."""
+        """The URI the node registers its services with."""
         return f"rosrpc://{uri_host(self.host)}:{self.tcpros_port}"

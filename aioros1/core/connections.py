@@ -1,4 +1,4 @@
-"""The TCPROS connections of one node: those of topics, and those of services."""
+"""The TCPROS connections of one node, for topics and services."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Link(Protocol):
 
 
 class Connections:
-    """Every connection that carries messages, whatever uses it."""
+    """Every connection that carries messages, whichever role uses it."""
 
     def __init__(self, emit: Callable[[Event], None]) -> None:
         self._emit = emit
@@ -27,24 +27,24 @@ class Connections:
 
     @property
     def infos(self) -> tuple[ConnectionInfo, ...]:
-        """What there is to know of each, the oldest first."""
+        """Information about each connection, oldest first."""
         return tuple(info for _, info in self._links.values())
 
     def add(self, kind: str, link: Link, info: ConnectionInfo) -> None:
-        """A connection carries messages from now on. ``kind`` is that of the role."""
+        """Add a connection that now carries messages. ``kind`` is the role's kind."""
         self._links[link] = kind, info
         self._emit(PeerConnected(kind, info.name, info))
 
     def remove(self, link: Link, reason: str = "") -> None:
-        """A connection has ended. Does nothing for one that was removed before."""
+        """Remove a connection that has ended. Does nothing if it was removed before."""
         entry = self._links.pop(link, None)
         if entry is not None:
             kind, info = entry
             self._emit(PeerDisconnected(kind, info.name, info, reason))
 
     def abort_at(self, host: str) -> None:
-        """Close the connections of an address that this machine has lost: nothing comes
-        there any more, not even their end."""
+        """Close the connections of an address that this machine has lost. Nothing arrives
+        there any more, not even the end of a connection."""
         for link, (_, info) in tuple(self._links.items()):
             if info.local[0] == host:
                 link.abort()

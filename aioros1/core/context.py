@@ -1,8 +1,8 @@
-"""What every part of a node is given: all that it may use, and nothing else.
+"""The context that every part of a node receives: all that it may use, and nothing else.
 
 A node is composed of parts: its topics, services and parameters, its heartbeat, its slave
-API. None of them knows the node. Each is given the node's context, and so it says in one
-place what a part needs and who may touch it.
+API. None of them knows the node. Each receives the node's context instead, so one place
+says what a part needs and who may touch it.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ __all__ = ["Context", "Member"]
 
 
 class Member(Protocol):
-    """What lives on a node, and is closed with it: a role, or a composite of several."""
+    """Something that lives on a node and closes with it: a role, or a composite of several."""
 
     @property
     def is_open(self) -> bool: ...
@@ -49,7 +49,7 @@ M = TypeVar("M", bound=Member)
 
 
 class Context:
-    """One node, as its parts see it."""
+    """A node as its parts see it."""
 
     def __init__(
         self,
@@ -73,7 +73,7 @@ class Context:
         registrations: Registrations,
     ) -> None:
         self.node = node
-        """The node itself, for users who ask a role for it. Parts do not look at it."""
+        """The node itself, for users who ask a role for it. Parts do not use it."""
         self.name = name
         self.namespace = namespace
         self.options = options
@@ -82,30 +82,30 @@ class Context:
         self.log = log
         self.clock = clock
         self.store = store
-        """Resolves the names of types."""
+        """Resolves type names."""
         self.peer_definitions = peer_definitions
-        """Definitions that publishers sent: a store of their own, so that what a peer says
-        is never found by who asks for a type by name."""
+        """Definitions that publishers sent. They have their own store, so that looking up a type
+        by name never finds what a peer sent."""
         self.address = address
         self.xmlrpc = xmlrpc
         self.master = master
-        """The master, asked with a limit of time."""
+        """Calls the master, with a timeout."""
         self.registrar = registrar
-        """The same without one: whoever waits for a registration has a limit of time, the
-        request has none."""
+        """Calls the master without a timeout. Waiting for a registration has a timeout; the
+        request itself has none."""
         self.registrations = registrations
         self.connections = Connections(events.publish)
         self.members: dict[Member, Callable[[], None]] = {}
-        """All that is open, in the order in which it was opened, and what drops it at once.
-        A member takes itself out when it is closed."""
+        """Everything that is open, in opening order, with the function that drops it at once.
+        A member removes itself when it closes."""
         self.emit: Callable[[Event], None] = events.publish
-        """Tell those who follow the events of the node."""
+        """Send an event to everyone who iterates over the node's events."""
         self.spawn = supervisor.spawn
         """Run a function in a task that ends with the node; see :meth:`.Supervisor.spawn`."""
         self.pause = supervisor.pause
         """Sleep until the node begins to close; see :meth:`.Supervisor.pause`."""
         self.loop_state: LoopState
-        """What the library keeps for the event loop that the node lives in, from its start."""
+        """The library's state for the node's event loop; set when the node starts."""
         self._remappings = remappings
         self._supervisor = supervisor
         self._user_errors = user_errors
@@ -119,21 +119,21 @@ class Context:
         """
         return names.resolve_name(name, self.namespace, self.name, self._remappings)
 
-    # life
+    # lifecycle
 
     @property
     def is_open(self) -> bool:
-        """Whether the node can be used."""
+        """Whether you can use the node."""
         return self._supervisor.state == "open"
 
     @property
     def close_reason(self) -> str | None:
-        """Why the node is closed, or is closing; None while it is not."""
+        """Why the node is closed or closing; None while it is neither."""
         return self._supervisor.reason
 
     def check_open(self) -> None:
-        """Raise :class:`~aioros1.ClosedError` unless the node can be used, and
-        :class:`RuntimeError` in another thread or event loop than the node's."""
+        """Raise :class:`~aioros1.ClosedError` unless the node is open, and
+        :class:`RuntimeError` outside the node's thread and event loop."""
         supervisor = self._supervisor
         if supervisor.state != "open":
             reason = supervisor.reason
@@ -143,22 +143,22 @@ class Context:
             self.check_loop()
 
     def check_loop(self) -> None:
-        """Raise :class:`RuntimeError` in another thread or event loop than the node's."""
+        """Raise :class:`RuntimeError` outside the node's thread and event loop."""
         if self._supervisor.state != "new":
             self.loop_state.check_thread(f"node {self.name}")
 
     def check_iterator(self) -> None:
-        """Raise :class:`RuntimeError` in another event loop than the node's.
+        """Raise :class:`RuntimeError` in an event loop other than the node's.
 
-        A thread without one may make iterators and hand them over to the node's loop.
+        A thread without an event loop may create iterators and pass them to the node's loop.
         """
         if _get_running_loop() is not None:
             self.check_loop()
 
     async def admit(self, member: M, abort: Callable[[], None]) -> M:
-        """Hand out what was opened, unless the node was closed meanwhile.
+        """Return ``member``, which has just opened, unless the node closed meanwhile.
 
-        The node closes it in the end, and calls ``abort`` if there is no time for that.
+        The node closes it when it closes itself, and calls ``abort`` if time runs out.
         Raises :class:`~aioros1.ClosedError`.
         """
         self.members[member] = abort
@@ -170,13 +170,13 @@ class Context:
     # errors
 
     def report(self, error: BaseException, what: str) -> None:
-        """Log an error of our own, or one that nobody foresaw."""
+        """Log an internal or unexpected error."""
         self.log.error("%s failed: %r", what, error, exc_info=error)
 
     def user_error(self, error: Exception, what: str) -> None:
-        """Treat an exception of the user's code as ``on_error`` of the node says.
+        """Handle an exception from the user's code as the node's ``on_error`` says.
 
-        That a node or a role is closed is no error any more once the node closes.
+        Once the node is closing, a closed node or role no longer counts as an error.
         """
         if self.is_open or not is_end(error):
             self._user_errors.handle(error, what)

@@ -1,4 +1,4 @@
-"""Something on its way to be open."""
+"""The awaitable that opens a role."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ R = TypeVar("R", bound=_Closable)
 
 @public
 class Opening(Generic[R]):
-    """A role on its way: await it, or use it with ``async with``.
+    """Opens a role: await it, or use it with ``async with``.
 
     ::
 
@@ -28,14 +28,14 @@ class Opening(Generic[R]):
         async with node.advertise("chatter", String) as pub:
             ...                                          # closed at the end
 
-    Nothing happens before that.
+    Nothing happens until you do.
     """
 
     __slots__ = ("_coroutine", "_role", "_what")
 
     def __init__(self, coroutine: Coroutine[Any, Any, R], what: str) -> None:
-        # The coroutine itself and not a function that makes it, so that Python warns
-        # of one that is never awaited.
+        # Keep the coroutine itself, not a function that makes it, so that Python warns if it
+        # is never awaited.
         self._coroutine = coroutine
         self._what = what
 

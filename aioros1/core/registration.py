@@ -1,11 +1,10 @@
-"""One entry of a node at the master, shared by the roles that need it.
+"""One registration of a node at the master, shared by the roles that need it.
 
-A master may be slow, and most serve every connection in a thread of its own. So it may obey
-a registration that nobody waits for any more after the request that takes it back, and keep
-a ghost. Therefore requests about one entry go one after the other: the next is sent when the
-last was answered, or when its connection is gone. They go in a task of the node, without a
-limit of time. Those who want something of it wait for as long as they like, and may be
-cancelled; that is no reason to hang up.
+A master may be slow, and most serve each connection in its own thread. A master may therefore
+process an abandoned registration after the request that unregisters it, and keep a ghost.
+To prevent this, requests about one entry are sent one after another: each waits until the
+previous one is answered or its connection is gone. A task of the node sends them, without a
+timeout. Callers wait as long as they like and may be cancelled; the request continues.
 """
 
 from __future__ import annotations
@@ -26,24 +25,24 @@ Tell = Callable[[], Awaitable[object]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Terms:
-    """What the entries of one node have in common."""
+    """Settings and state that the entries of one node share."""
 
     node_name: str
     master_uri: str
     patience: float
-    """Seconds that somebody waits for the master."""
+    """How long a caller waits for the master, in seconds."""
     slots: asyncio.Semaphore
-    """What each request gets hold of: not all of them are sent at a time."""
+    """Each request acquires it, which limits how many are sent at a time."""
     supervisor: Supervisor
     emit: Callable[[Event], None]
     table: dict[tuple[str, str], Registration] = field(default_factory=dict)
-    """By kind and name, those that have users, or of which the master is yet to hear."""
+    """By kind and name, the entries that have users or that the master must still be told of."""
 
 
 class Registration:
-    """Registered while it has users, and again whenever the master has forgotten.
+    """Keeps an entry registered while it has users, even if the master forgets it.
 
-    Made by :meth:`.Registrations.entry`. ``register`` and ``unregister`` talk to the master.
+    Made by :meth:`.Registrations.entry`. ``register`` and ``unregister`` call the master.
     """
 
     def __init__(
@@ -55,21 +54,21 @@ class Registration:
         self._terms = terms
         self._register = register
         self._unregister = unregister
-        self._is_at_master: bool | None = False  # None: it may be, or not
+        self._is_at_master: bool | None = False  # None: unknown
         self._is_established = False  # registered, and not given up since
-        self._is_outdated = False  # what the request in progress says will not count
+        self._is_outdated = False  # ignore the result of the request in progress
         self._has_ended = False
         self._is_withdrawn = False
         self._work: asyncio.Future[tuple[bool, Exception | None]] | None = None
 
     @property
     def is_behind(self) -> bool:
-        """Whether the master does not know what it should, and nothing is on its way to it."""
+        """Whether the master is out of date and no request to it is in progress."""
         return self._work is None and self._is_at_master is not self._is_wanted
 
     @property
     def is_established(self) -> bool:
-        """Whether the master has accepted it."""
+        """Whether the master has accepted the registration."""
         return self._is_established
 
     @property
@@ -77,19 +76,20 @@ class Registration:
         return self.users > 0 and not (self._has_ended or self._is_withdrawn)
 
     def adopt(self, register: Tell, unregister: Tell) -> None:
-        """Somebody else of the same name: from now on the master is told so."""
+        """Hand the entry to a new owner of the same name, which is registered from now on."""
         self._register = register
         self._unregister = unregister
         self._is_established = False
         self.forget()
 
     async def acquire(self) -> None:
-        """One user more; returns when the master has accepted.
+        """Add a user; return when the master has accepted the registration.
 
-        Raises what the master answers, and :class:`~aioros1.MasterUnreachable` when that
-        takes longer than ``timeouts.xmlrpc``. Then, and when it is cancelled, nothing stays
-        registered that was not before; whoever cancels waits for that, but not longer than
-        for any request, and not if he cancels again. The node waits for it when it closes.
+        Raises the master's error, and :class:`~aioros1.MasterUnreachable` when the answer
+        takes longer than ``timeouts.xmlrpc``. After an error or a cancellation, nothing stays
+        registered that was not registered before. A cancelled call waits for that, but no
+        longer than for any request, and not if it is cancelled again. The node waits for it
+        when it closes.
         """
         self.users += 1
         self._terms.table[self.kind, self.name] = self
@@ -103,40 +103,40 @@ class Registration:
             raise
 
     async def release(self) -> None:
-        """One user less. Raises :class:`~aioros1.MasterError` if the last one's
-        leaving could not be told to the master; that is tried again when it is back."""
+        """Remove a user; unregister after the last one. Raises :class:`~aioros1.MasterError` if
+        the master could not be told, which is retried when it is back."""
         self.users -= 1
         await self._settle(False)
 
     async def withdraw(self) -> None:
-        """Take it back until it is renewed. Raises as :meth:`release` does."""
+        """Unregister until :meth:`renew`. Raises as :meth:`release` does."""
         self._is_withdrawn = True
         await self._settle(False)
 
     async def renew(self) -> None:
-        """Tell the master again, if there are users. Raises as :meth:`acquire` does."""
+        """Register again, if there are users. Raises as :meth:`acquire` does."""
         self._is_withdrawn = False
         self.forget()
         await self.settle()
 
     async def settle(self) -> None:
-        """Tell the master what it could not be told before. Raises as :meth:`acquire`."""
+        """Bring the master up to date. Raises as :meth:`acquire` does."""
         await self._settle(self._is_wanted)
 
     async def end(self) -> None:
-        """Take it back, whoever wants it or waits for it. Raises as :meth:`release`."""
+        """Unregister for good, even if there are users. Raises as :meth:`release` does."""
         self._has_ended = True
         await self._settle(False)
 
     def forget(self) -> None:
-        """What the master was told does not count any more."""
+        """Assume that the master may have forgotten the entry."""
         if self._work is not None:
             self._is_outdated = True
         elif self._is_at_master:
             self._is_at_master = None
 
     async def _settle(self, wanted: bool) -> None:
-        """Wait until the master has been told, unless somebody else wants the opposite."""
+        """Wait until the master has been told, unless another caller wants the opposite."""
         patience = self._terms.patience
         loop = asyncio.get_running_loop()
         end = loop.time() + patience
@@ -160,30 +160,30 @@ class Registration:
         if self._work is None and not self.is_behind:
             self._leave_if_idle()
             return
-        with contextlib.suppress(ClosedError):  # too late: all connections are closed
+        with contextlib.suppress(ClosedError):  # too late: every connection is closed
             work = self._begin()
             if waits:
                 await asyncio.wait({work}, timeout=self._terms.patience)
 
     def _begin(self) -> asyncio.Future[tuple[bool, Exception | None]]:
-        """Tell the master, if nobody does so already; what is to be waited for then.
+        """Start to tell the master unless that is in progress; return the future to wait for.
 
-        Raises :class:`~aioros1.ClosedError` when it is too late for that.
+        Raises :class:`~aioros1.ClosedError` when it is too late.
         """
         if self._work is None:
             work = asyncio.get_running_loop().create_future()
             task = self._terms.supervisor.spawn(
                 self._tell_all, work, name=f"{self._terms.node_name} tells of {self.name}"
             )
-            # Not in the task, which may be cancelled before it begins.
+            # Not inside the task, which may be cancelled before it begins.
             task.add_done_callback(lambda _: self._work_ended(work))
             self._work = work
         return self._work
 
     async def _tell_all(self, work: asyncio.Future[tuple[bool, Exception | None]]) -> None:
-        """Tell the master until it knows what it should, or something fails."""
+        """Send requests until the master is up to date or a request fails."""
         wanted, failure = self._is_wanted, None
-        # What is outdated is told again, even if it is still wanted as it was told.
+        # Repeat an outdated request even if it still says what is wanted.
         while failure is None and (
             self._is_at_master is not (wanted := self._is_wanted) or self._is_outdated
         ):
@@ -203,7 +203,7 @@ class Registration:
         return ClosedError(f"node {self._terms.node_name} is closing, not open{why}")
 
     async def _tell(self, wanted: bool) -> Exception | None:
-        """One request; gives what came in the way."""
+        """Send one request; return the error if it fails."""
         terms, before = self._terms, self._is_at_master
         was_established = self._is_established
         self._is_established = was_established and wanted
@@ -215,7 +215,7 @@ class Registration:
             self._is_at_master = wanted
         except MasterUnreachable as error:
             failure = error
-            if type(error.__cause__) is ConnectionError:  # nobody was there to hear it
+            if type(error.__cause__) is ConnectionError:  # the request never reached a master
                 self._is_at_master = before
         except MasterError as error:
             failure = error

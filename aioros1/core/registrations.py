@@ -1,4 +1,4 @@
-"""All entries of one node at the master."""
+"""All registrations of one node at the master."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from aioros1.errors import ClosedError, MasterError
 __all__ = ["AT_ONCE", "Registrations"]
 
 AT_ONCE = 6
-"""Requests for registrations at a time. They have no limit of time, so that a master that
-answers none of them must leave connections for others, which ask whether it is there."""
+"""Registration requests that may be in progress at a time. They have no timeout. The limit
+leaves connections for requests that check for the master even if it answers none of these."""
 
 
 class Registrations:
-    """The entries of one node at the master, by kind and name.
+    """The registrations of one node at the master, by kind and name.
 
-    There are those that have users, and those of which the master is yet to hear.
+    It holds the entries that have users and those that the master must still be told of.
     """
 
     def __init__(self, terms: Terms) -> None:
@@ -29,8 +29,8 @@ class Registrations:
         return tuple(self._terms.table.values())
 
     def entry(self, kind: str, name: str, register: Tell, unregister: Tell) -> Registration:
-        """The entry of that name: one for all that ever use it, so that what the master is
-        told of it keeps its order."""
+        """Return the entry of that name. All its users share it, which keeps the requests about
+        it in order."""
         registration = self._terms.table.get((kind, name))
         if registration is None:
             return Registration(self._terms, kind, name, register, unregister)
@@ -38,7 +38,7 @@ class Registrations:
         return registration
 
     async def end(self, *, only_unfinished: bool = False) -> None:
-        """Take all of them back, whoever wants them or waits for them."""
+        """Unregister everything for good, even entries that have users."""
         ending = [
             registration.end()
             for registration in self.all

@@ -1,4 +1,4 @@
-"""What all roles of a node have in common."""
+"""The base class of all roles of a node."""
 
 from __future__ import annotations
 
@@ -22,13 +22,12 @@ __all__ = ["Role"]
 class Role(ABC):
     """A publisher, subscriber, service provider, service caller or parameter subscriber.
 
-    A role is open from the moment its factory on :class:`~aioros1.Node` hands it out. It is
-    closed by :meth:`close`, by the end of the ``async with`` it was opened in, or with
-    its node.
+    A role is open from the moment its factory on :class:`~aioros1.Node` returns it. It closes
+    when you call :meth:`close`, at the end of its ``async with`` block, or with its node.
     """
 
     kind = "role"
-    """What it is, in a word or two."""
+    """The kind of role, in a word or two."""
 
     def __init__(self, context: Context, name: str) -> None:
         self._context = context
@@ -37,7 +36,7 @@ class Role(ABC):
         self._loop_state = context.loop_state
         self._closing: asyncio.Task[None] | None = None
         self.stats = RoleStats()
-        """What it has counted."""
+        """The role's counters."""
 
     @property
     def node(self) -> Any:
@@ -66,19 +65,19 @@ class Role(ABC):
 
     @property
     def is_open(self) -> bool:
-        """Whether the role can be used; False once it is being closed."""
+        """Whether you can use the role; False once it starts to close."""
         return self._is_open
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
-        """The TCPROS connections the role uses now."""
+        """The TCPROS connections that the role uses now."""
         return ()
 
     async def close(self) -> None:
-        """Take the role back from the master and free what it holds.
+        """Unregister the role from the master and free its resources.
 
-        You may call it any number of times. What the master could not be told, because it
-        is gone, is logged and not raised. When the wait is cancelled, closing goes on.
+        You may call it any number of times. If the master is unreachable, the error is logged
+        and not raised. If you cancel the call, closing continues.
         """
         if self._is_open:
             if get_ident() != self._loop_state.thread_id:
@@ -100,7 +99,7 @@ class Role(ABC):
     async def _close(self) -> None: ...
 
     def _abort(self) -> None:
-        """The node has ended: wake up whoever waits here, tell nobody."""
+        """Wake up everyone who waits for the role, without telling peers: the node has ended."""
         self._is_open = False
 
     def _check_open(self) -> None:

@@ -1,8 +1,8 @@
-"""What the rest of the graph sees once for each name, whatever number of roles use it.
+"""What the rest of the graph sees once per name, however many roles use it.
 
-Roles are what a program holds in its hands. They are cheap, and there may be many of one
-name. Behind those of one name stands one object: a publication, a subscription, a provided
-service, a followed parameter. It has the connections, and its entry at the master.
+Roles are the handles a program uses. They are cheap, and many may have the same name. All
+roles of one name share one object: a publication, a subscription, a provided service or a
+followed parameter. That object owns the connections and the registration at the master.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ R = TypeVar("R")
 class Shared(ABC, Generic[R]):
     """One name in ``table``, from the first role that acquires it to the last that leaves.
 
-    A new one takes the place of an older one of the same name, whose roles are being closed.
-    The two share their entry at the master.
+    A new object replaces an older one of the same name whose roles are closing. The two share
+    their registration at the master.
     """
 
     kind: ClassVar[str]
-    """What the events of a node call it."""
+    """Its kind in the events of a node."""
 
     def __init__(self, context: Context, name: str, table: dict[str, Any]) -> None:
         self.name = name
         self.roles: tuple[R, ...] = ()
-        """The roles that use it, in the order in which they came."""
+        """The roles that use it, in the order they acquired it."""
         self._context = context
         self._table = table
         table[name] = self
@@ -40,24 +40,24 @@ class Shared(ABC, Generic[R]):
         )
 
     async def acquire(self, role: R) -> None:
-        """Let ``role`` use it; return when the master has accepted.
+        """Add ``role``; return when the master has accepted the registration.
 
-        Raises what the master answers, :class:`~aioros1.MasterUnreachable` and
-        :class:`~aioros1.ClosedError`; the role does not use it then.
+        Raises the master's error, :class:`~aioros1.MasterUnreachable` and
+        :class:`~aioros1.ClosedError`; the role is not added then.
         """
-        # Peers may come as soon as the master knows, before we know that it does.
+        # Peers may connect as soon as the master has registered us, before it answers us.
         self._join(role)
         try:
             await self.registration.acquire()
         except BaseException:
             self._part(role)
             if not self.roles:
-                self.abort()  # somebody may have connected already
+                self.abort()  # a peer may have connected already
             self._leave_table()
             raise
 
     async def leave(self, role: R) -> None:
-        """``role`` uses it no more; the last one takes it back from the master."""
+        """Remove ``role``; after the last one, unregister from the master."""
         self._part(role)
         if not self.roles:
             await self._let_go()
@@ -71,7 +71,7 @@ class Shared(ABC, Generic[R]):
 
     @abstractmethod
     def abort(self) -> None:
-        """Drop all connections at once."""
+        """Drop every connection at once."""
 
     def _join(self, role: R) -> None:
         self.roles += (role,)
@@ -80,18 +80,18 @@ class Shared(ABC, Generic[R]):
         self.roles = tuple(each for each in self.roles if each is not role)
 
     async def _let_go(self) -> None:
-        """Nobody uses it, and the master does not know yet."""
+        """Clean up after the last role has left, before the master is told."""
 
     async def _disconnect(self) -> None:
-        """Nobody uses it, and the master knows."""
+        """Clean up after the last role has left and the master was told."""
 
     @abstractmethod
     async def _register(self) -> None:
-        """Tell the master of it."""
+        """Register it at the master."""
 
     @abstractmethod
     async def _unregister(self) -> None:
-        """Tell the master that it is no more."""
+        """Unregister it from the master."""
 
     def _leave_table(self) -> None:
         is_used = self.roles or self.registration.users

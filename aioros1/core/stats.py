@@ -1,4 +1,4 @@
-"""What roles and nodes have counted."""
+"""Counters of roles and nodes."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class RoleStats:
     """Messages published or received, or calls made or answered."""
 
     bytes: int = 0
-    """Bytes of those, counted once however many peers there are."""
+    """Bytes of those messages, counted once however many peers there are."""
 
     dropped: int = 0
-    """Messages dropped from a full queue; a message for three peers counts for each."""
+    """Messages dropped from a full queue; a message for three peers counts once per peer."""
 
     errors: int = 0
     """Messages that could not be decoded, or calls that failed."""
@@ -35,18 +35,18 @@ class NodeStats:
     messages: int
     """Messages published or received, and calls made or answered."""
     bytes: int
-    """Bytes of those, counted once however many peers there are."""
+    """Bytes of those messages, counted once however many peers there are."""
     dropped: int
     """Messages dropped from full queues."""
     errors: int
     """Messages that could not be decoded, and calls that failed."""
     roles: int
-    """Roles that are open."""
+    """Open roles."""
     connections: int
-    """TCPROS connections that are open."""
+    """Open TCPROS connections."""
     connections_refused: int
-    """Connections closed at once because there were too many: ``connections``,
-    ``xmlrpc_connections`` and ``connections_per_host`` of ``limits``."""
+    """Connections closed at once because they exceeded ``connections``,
+    ``xmlrpc_connections`` or ``connections_per_host`` of ``limits``."""
     connections_forbidden: int
     """Connections closed at once because their address is not in ``allow``."""
     requests_delayed: int

@@ -1,4 +1,4 @@
-"""The task that owns a node: from its start to its end, and everything in between."""
+"""The task that owns a node from its start to its end."""
 
 from __future__ import annotations
 
@@ -16,28 +16,27 @@ State = Literal["new", "starting", "open", "closing", "closed"]
 
 
 class Life(Protocol):
-    """What a node does when. Each part may count on the former having been called."""
+    """The steps of a node's life. Each step may rely on the previous one having been called."""
 
     async def begin(self) -> None:
-        """Come to be. The node can be used when this returns."""
+        """Start. The node is usable when this returns."""
 
     async def finish(self) -> None:
-        """Tell others of the end, as far as they listen."""
+        """Tell others that the node ends, as far as they respond."""
 
     async def free(self) -> None:
-        """Let go of all that is shared with others, whatever has become of it. This comes
-        also after a :meth:`begin` that has failed, or was cancelled half-way."""
+        """Release everything shared with others, in whatever state it is. This is also called
+        after a :meth:`begin` that failed or was cancelled halfway."""
 
     def drop(self) -> None:
-        """Let go of the rest, without waiting for anybody. This always comes last."""
+        """Release the rest without waiting. This is always called last."""
 
 
 class Supervisor:
-    """Leads a node through its life, in one task, when it is told to begin and to end.
+    """Runs the steps of a node's life in one task, which starts and ends on request.
 
-    Whoever asks for the end, and may be cancelled while waiting for it, does not do it: this
-    task does. All other tasks of the node are in its task group. What goes wrong in them is
-    given to ``report``.
+    Callers who request the end may be cancelled while they wait, so this task does the work.
+    All other tasks of the node are in its task group. It passes their errors to ``report``.
     """
 
     def __init__(self, name: str, life: Life, report: Callable[[BaseException, str], None]) -> None:
@@ -45,22 +44,22 @@ class Supervisor:
         self._life = life
         self._report = report
         self.state: State = "new"
-        """Where the node is in its life; the steps of that set it."""
+        """The state of the node, which the steps of its life set."""
         self._group: asyncio.TaskGroup | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
         self.reason: str | None = None
-        """Why the node ends; None while nothing says that it should."""
+        """Why the node ends; None until something ends it."""
 
     async def start(self) -> None:
-        """Return when the node has begun; raise what it raises."""
+        """Return when the node has started; raise what that raises."""
         begun = asyncio.get_running_loop().create_future()
         self._task = asyncio.create_task(self._run(begun), name=f"{self._name} supervisor")
         try:
             await asyncio.shield(begun)
         except asyncio.CancelledError:
             self.end("its start was cancelled")
-            # What has begun ends as it always does: it may have told others already.
+            # Run the usual end of a started node: it may have told others already.
             if not begun.done():
                 begun.cancel()
                 self._task.cancel()
@@ -68,7 +67,7 @@ class Supervisor:
             raise
 
     def end(self, reason: str) -> None:
-        """Begin to end, for the first ``reason`` given."""
+        """Start to end the node. Only the first ``reason`` counts."""
         if self.reason is None:
             self.reason = reason
             self._end.set()
@@ -79,7 +78,7 @@ class Supervisor:
             await asyncio.wait({self._task})
 
     async def pause(self, seconds: float) -> None:
-        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the end begins."""
+        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the node starts to end."""
         try:
             async with asyncio.timeout(seconds):
                 await self._end.wait()
@@ -90,11 +89,11 @@ class Supervisor:
     def spawn(
         self, function: Callable[..., Awaitable[Any]], *args: Any, name: str
     ) -> asyncio.Task[None]:
-        """Run ``function(*args)`` in a task of the group. What it raises is reported.
+        """Run ``function(*args)`` in a task of the group. Its exceptions are reported.
 
-        Raises :class:`~aioros1.ClosedError` once the end has come.
+        Raises :class:`~aioros1.ClosedError` once the node has ended.
         """
-        # The function and not a coroutine: one that is never started would be warned of.
+        # Takes a function: Python would warn of a coroutine that is never started.
         if self._group is None:
             raise ClosedError(f"{self._name} is closed")
         return self._group.create_task(self._guarded(function, args, name), name=name)
@@ -105,8 +104,8 @@ class Supervisor:
         try:
             await function(*args)
         except ClosedError:
-            pass  # it was doing something with what was closed meanwhile
-        except Exception as error:  # one broken task must not take the others with it
+            pass  # it used something that closed meanwhile
+        except Exception as error:  # one broken task must not stop the others
             self._report(error, name)
 
     async def _run(self, begun: asyncio.Future[None]) -> None:
@@ -140,4 +139,4 @@ class Supervisor:
 
 
 class _TheEndError(Exception):
-    """Ends the task group with all that is still in it."""
+    """Ends the task group and every task still in it."""

@@ -1,4 +1,4 @@
-"""Exceptions of the user's code, where nobody awaits it."""
+"""Exceptions from the user's code where nobody awaits it."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ __all__ = ["UserErrors", "is_end", "reportable"]
 
 
 def reportable(error: BaseException) -> Exception | None:
-    """What to report of an exception of the user's code; None if it is to be raised on.
+    """Return the error to report for an exception from the user's code, or None to re-raise it.
 
-    A cancellation is the task's own only if somebody has cancelled that; otherwise it comes
-    out of something that was awaited, and is an error like others.
+    A cancellation is genuine only if somebody cancelled the task. Otherwise it comes from
+    something the task awaited, and is an error like any other.
     """
     if isinstance(error, Exception):
         return error
@@ -32,16 +32,16 @@ def reportable(error: BaseException) -> Exception | None:
 
 
 def is_end(error: Exception) -> bool:
-    """Whether it says only that something is closed, alone or in a group."""
+    """Whether the error, alone or as a group, only says that something is closed."""
     if isinstance(error, ExceptionGroup):
         return error.split(ClosedError)[1] is None
     return isinstance(error, ClosedError)
 
 
 class UserErrors:
-    """Does with them what ``on_error`` of the node says.
+    """Handles exceptions from the user's code as the node's ``on_error`` says.
 
-    ``"raise"`` ends the node, cancels whoever is in its ``async with`` block, and raises the
+    ``"raise"`` ends the node, cancels the task in its ``async with`` block, and raises the
     exception there in place of the cancellation, as :class:`asyncio.TaskGroup` does.
     """
 
@@ -52,14 +52,14 @@ class UserErrors:
         self._user: asyncio.Task[Any] | None = None
         self._has_cancelled_user = False
         self.failure: Exception | None = None
-        """What has ended the node, if an exception did."""
+        """The exception that ended the node, if one did."""
 
     def handle(self, error: Exception, what: str) -> None:
-        """Treat ``error``, which ``what`` has raised."""
+        """Handle ``error``, which ``what`` raised."""
         if callable(self._policy):
             try:
                 self._policy(error)
-            except Exception as second:  # it must not end what called us
+            except Exception as second:  # it must not break our caller
                 self._log.error("on_error failed with %r", error, exc_info=second)
         elif self._policy == "log":
             self._log.error("%s failed", what, exc_info=error)
@@ -71,10 +71,10 @@ class UserErrors:
                 self._user.cancel()
 
     def enter_block(self) -> None:
-        """The running task is in the ``async with`` block of the node."""
+        """Record that the running task entered the node's ``async with`` block."""
         self._user = asyncio.current_task()
 
     def leave_block(self) -> bool:
-        """The block has ended. Whether it was cancelled for a failure and by nobody else."""
+        """Record the end of the block; return whether only a failure cancelled it."""
         user, self._user = self._user, None
         return self._has_cancelled_user and user is not None and user.uncancel() <= 0

@@ -1,1 +1,1 @@
-"""What a node logs, on ``/rosout`` and elsewhere."""
+"""Logging of a node, to ``/rosout`` and elsewhere."""

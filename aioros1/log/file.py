@@ -1,4 +1,4 @@
-"""A file for what the loggers of a node are given, as roslaunch wants one of each node."""
+"""A log file for the loggers of a node, which roslaunch expects of each node."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _FORMAT = "[%(name)s][%(levelname)s] %(asctime)s: %(message)s"
 
 @contextlib.contextmanager
 def log_to_file(names: Iterable[str], path: str) -> Iterator[None]:
-    """Append what the loggers of these names are given to a file, while the block runs.
+    """Append the records of the named loggers to a file while the block runs.
 
-    Raises :class:`OSError` if it cannot be opened.
+    Raises :class:`OSError` if the file cannot be opened.
     """
     handler = _LogFile(path, encoding="utf-8", errors="backslashreplace")
     handler.setFormatter(logging.Formatter(_FORMAT))

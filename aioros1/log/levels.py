@@ -1,4 +1,4 @@
-"""The levels of ROS and of :mod:`logging`, and changes of them that a node undoes."""
+"""Log levels of ROS and of :mod:`logging`, and level changes that a node undoes."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ LEVELS = {
     "error": (logging.ERROR, 8),
     "fatal": (logging.CRITICAL, 16),
 }
-"""ROS's name of a level, Python's number and the number in ``rosgraph_msgs/Log``."""
+"""ROS's name for a level, Python's number and the number in ``rosgraph_msgs/Log``."""
 
 
 def ros_level(number: int) -> int:
-    """The level of ROS for one of Python's, which may lie in between."""
+    """The ROS level for a Python level, which may lie between two of them."""
     for python, ros in reversed(LEVELS.values()):
         if number >= python:
             return ros
@@ -28,20 +28,20 @@ def ros_level(number: int) -> int:
 
 @dataclass(slots=True)
 class _Change:
-    """What has become of the level of one logger."""
+    """A change to the level of one logger."""
 
     before: int
     after: int
     wanted_by: set[LevelChanges] = field(default_factory=set)
 
 
-# Of the process, as the loggers are: two of its nodes may have some in common.
+# Global to the process, as loggers are: two nodes may share some.
 _changes: dict[logging.Logger, _Change] = {}
 _lock = threading.RLock()
 
 
 class LevelChanges:
-    """The levels that one node has set, for ``/rosout`` or because somebody asked it to."""
+    """The levels that one node has set, for ``/rosout`` or on request."""
 
     def set(self, logger: logging.Logger, level: int) -> None:
         """Change a level until :meth:`restore`."""
@@ -52,7 +52,8 @@ class LevelChanges:
             logger.setLevel(level)
 
     def set_default(self, logger: logging.Logger, level: int) -> None:
-        """Do that for a logger without a level; one that another node has set keeps it."""
+        """Change a level like :meth:`set`, but only of a logger without one. A level that
+        another node has set stays."""
         with _lock:
             if logger in _changes:
                 _changes[logger].wanted_by.add(self)
@@ -60,8 +61,8 @@ class LevelChanges:
                 self.set(logger, level)
 
     def restore(self) -> None:
-        """Undo the changes that no other node wants, but for what the application has
-        changed meanwhile."""
+        """Undo the changes that no other node wants, except where the application has changed
+        the level meanwhile."""
         with _lock:
             for logger, change in list(_changes.items()):
                 change.wanted_by.discard(self)
@@ -72,6 +73,6 @@ class LevelChanges:
 
 
 def level_name(number: int) -> str:
-    """ROS's name for one of Python's levels."""
+    """ROS's name for a Python level."""
     level = ros_level(number)
     return next(name for name, (_, ros) in LEVELS.items() if ros == level)

@@ -1,4 +1,4 @@
-"""What a node logs with: an adapter of its logger, with variants that say less."""
+"""The logger adapter of a node, with variants that log less often."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from aioros1.time import Duration
 
 __all__ = ["NodeLog", "SparseLog", "logger_name"]
 
-# How logging itself tells its own frames from those of its users.
+# logging tells its own frames from those of its users the same way.
 _LOGGING = os.path.normcase(logging.addLevelName.__code__.co_filename)
 
 _SITES = 1000
-"""Places in the code that are remembered. A program has fewer, unless it makes code."""
+"""Places in the code to remember. A program has fewer, unless it generates code."""
 
 
 def logger_name(node_name: str) -> str:
@@ -32,7 +32,7 @@ def logger_name(node_name: str) -> str:
 
 @public
 class NodeLog(logging.LoggerAdapter[logging.Logger]):
-    """``node.log``: the logger of a node, and less of it.
+    """``node.log``: the logger of a node, with variants that log less often.
 
     ::
 
@@ -40,8 +40,7 @@ class NodeLog(logging.LoggerAdapter[logging.Logger]):
         node.log.once.warning("no calibration, using the default")
         node.log.throttle(5.0).info("at %s", position)
 
-    Its records have an attribute ``ros_node``, the name of the node, for the formats of
-    handlers.
+    Its records have an attribute ``ros_node``, the name of the node, which formatters can use.
     """
 
     def __init__(
@@ -51,24 +50,24 @@ class NodeLog(logging.LoggerAdapter[logging.Logger]):
         own = logger_name(node_name)
         super().__init__(logging.getLogger(own), self._fields)
         self.names = (own, *others)
-        """The names of the loggers that ``/rosout`` is made of: the node's own, and those
-        that the option ``rosout`` names."""
+        """The names of the loggers published on ``/rosout``: the node's own, and those that the
+        option ``rosout`` names."""
         self._now = now
-        """Nanoseconds of some clock."""
+        """Returns nanoseconds of some clock."""
         self._once = _Sites()
         self._throttled = _Sites()
 
     def process(
         self, msg: Any, kwargs: MutableMapping[str, Any]
     ) -> tuple[Any, MutableMapping[str, Any]]:
-        """Add the name of the node to what the record has in addition."""
+        """Add the name of the node to the record's ``extra``."""
         kwargs["extra"] = {**self._fields, **(kwargs.get("extra") or {})}
         return msg, kwargs
 
     def to_file(self, path: str) -> contextlib.AbstractContextManager[None]:
-        """While the block runs, append what goes to ``/rosout`` to a file as well.
+        """Append what goes to ``/rosout`` to a file as well, while the block runs.
 
-        Raises :class:`OSError` if it cannot be opened.
+        Raises :class:`OSError` if the file cannot be opened.
         """
         return log_to_file(self.names, path)
 
@@ -77,15 +76,15 @@ class NodeLog(logging.LoggerAdapter[logging.Logger]):
 
     @property
     def once(self) -> SparseLog:
-        """The same, but each place in the code logs only the first time."""
+        """An adapter with which each place in the code logs only the first time."""
         return SparseLog(self, lambda site, text: self._once.is_new(site))
 
     def throttle(self, period: float | Duration, *, identical: bool = False) -> SparseLog:
-        """The same, but each place in the code logs once in ``period`` seconds at the most.
+        """An adapter with which each place in the code logs at most once every ``period`` seconds.
 
-        That is by the time of the node; when that is set back, the next call logs. With
-        ``identical`` only what says the same as the last time is held back: another text
-        is logged at once. Raises :class:`ValueError` for a period that is negative.
+        The period follows the time of the node; when that jumps back, the next call logs.
+        With ``identical``, only messages with the same text as the last one are held back;
+        a different text is logged at once. Raises :class:`ValueError` for a negative period.
         """
         seconds = period.to_sec() if isinstance(period, Duration) else period
         if not seconds >= 0:
@@ -100,10 +99,10 @@ class NodeLog(logging.LoggerAdapter[logging.Logger]):
 
 @public
 class SparseLog(logging.LoggerAdapter[NodeLog]):
-    """Logs what is due, each place in the code for itself; made by :class:`NodeLog`.
+    """Logs only what is due, separately for each place in the code; made by :class:`NodeLog`.
 
-    A place is a call in a line of a file, as in rospy. The last thousand of them that
-    were used are remembered.
+    A place is a call in a line of a file, as in rospy. The thousand most recently used places
+    are remembered.
     """
 
     def __init__(self, log: NodeLog, is_due: Callable[[Hashable, Callable[[], str]], bool]) -> None:
@@ -113,11 +112,11 @@ class SparseLog(logging.LoggerAdapter[NodeLog]):
     def process(
         self, msg: Any, kwargs: MutableMapping[str, Any]
     ) -> tuple[Any, MutableMapping[str, Any]]:
-        """Nothing to add: the adapter below does."""
+        """Add nothing: the underlying adapter does."""
         return msg, kwargs
 
     def log(self, level: int, msg: Any, *args: Any, **kwargs: Any) -> None:
-        """Log if it is due. The other methods come here."""
+        """Log the message if it is due. The other methods call this one."""
         stacklevel = kwargs.get("stacklevel", 1)
         if self.isEnabledFor(level) and self._is_due(_site(stacklevel), lambda: _text(msg, args)):
             kwargs["stacklevel"] = stacklevel + 1  # past this function
@@ -125,7 +124,7 @@ class SparseLog(logging.LoggerAdapter[NodeLog]):
 
 
 class _Sites:
-    """What is known of places in the code. For any thread, and signal handlers too."""
+    """State kept for places in the code. Usable from any thread and from signal handlers."""
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -153,7 +152,7 @@ class _Sites:
 
 
 def _site(stacklevel: int) -> Hashable:
-    """The call that logs, found as logging finds it."""
+    """The call that logs, found the way logging finds it."""
     frame: FrameType | None = sys._getframe(1)
     while frame is not None and frame.f_back is not None and stacklevel:
         frame = frame.f_back
@@ -166,5 +165,5 @@ def _site(stacklevel: int) -> Hashable:
 def _text(msg: object, args: tuple[Any, ...]) -> str:
     try:
         return logging.LogRecord("", 0, "", 0, msg, args, None).getMessage()
-    except Exception:  # which the handlers will tell
+    except Exception:  # the handlers will report it
         return repr(msg)

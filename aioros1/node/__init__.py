@@ -1,4 +1,4 @@
-"""The node: what a program is in a ROS graph."""
+"""The node: a program's presence in a ROS graph."""
 
 from __future__ import annotations
 

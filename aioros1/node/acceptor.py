@@ -1,4 +1,4 @@
-"""Connections that come in: who they want, and why not."""
+"""Incoming TCPROS connections: hand them over, or refuse them."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ Serve = Callable[[Stream, Server], Awaitable[None]]
 class Acceptor:
     """The TCPROS port of a node, for its topics and its services alike.
 
-    Each connection has a task of its own, so one that sends nothing, or half a header,
-    holds up no other; and it has ``timeouts.handshake`` seconds for its header.
+    Each connection has its own task, so one that sends nothing, or half a header, delays no
+    other. It has ``timeouts.handshake`` seconds to send its header.
     """
 
     def __init__(self, context: Context, allow: AllowList) -> None:
@@ -35,19 +35,19 @@ class Acceptor:
             log=context.log,
         )
         self.local = LocalTransports(context.options.local_transports, self._listener)
-        """How else than over TCP topics connect, on both sides."""
+        """The transports other than TCP that topics use, on both sides."""
         self._serve_topic: Serve | None = None
         self._serve_service: Serve | None = None
 
     @property
     def admission(self) -> Admission:
-        """Who was let in, and who was not."""
+        """Which connections were accepted and which were refused."""
         return self._listener.admission
 
     async def start(self, host: str, port: int, *, topics: Serve, services: Serve) -> int:
-        """Listen, and hand over whoever wants a topic or a service; the port.
+        """Listen, pass connections to ``topics`` and ``services``, and return the port.
 
-        Raises :class:`OSError` when the address or the port is not to be had.
+        Raises :class:`OSError` when the address or port is not available.
         """
         self._serve_topic, self._serve_service = topics, services
         await self._listener.start(host, port)
@@ -55,7 +55,7 @@ class Acceptor:
         return self._listener.port
 
     def close(self) -> None:
-        """Take no more connections; those that are open stay so."""
+        """Accept no more connections; open ones stay open."""
         self.local.close()
         self._listener.close()
 
@@ -72,7 +72,7 @@ class Acceptor:
             assert serve is not None
             await serve(stream, server)
         except HandshakeError as error:
-            # Who comes while the node closes has not heard of it yet.
+            # A peer that connects while the node closes does not know that yet.
             log = context.log.warning if context.is_open else context.log.debug
             log("refused a connection of %s", error)
             await self._refuse(stream, server.refuse(error.text))
@@ -80,13 +80,13 @@ class Acceptor:
             context.log.warning("refused a connection: %s", error)
             await self._refuse(stream, server.refuse(str(error)))
         except OSError:
-            pass  # gone before it was served
+            pass  # it closed before it was served
         finally:
-            # What was written is still sent; nobody has to wait for it.
+            # Buffered bytes are still sent; there is no need to wait for that.
             stream.writer.close()
 
     async def _refuse(self, stream: Stream, header: bytes) -> None:
         try:
             await stream.write(header, stall=self._context.timeouts.handshake)
         except (OSError, TimeoutError):
-            pass  # it does not want to know
+            pass  # it has already closed

@@ -1,4 +1,4 @@
-"""Closing all that lives on a node."""
+"""Closing everything that lives on a node."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 __all__ = ["close_members"]
 
 _LAST_TURNS = 10
-"""Iterations of the event loop for the ends of loops over roles, and of their blocks."""
+"""Iterations of the event loop in which loops over roles, and their blocks, can finish."""
 
 
 async def close_members(context: Context, rosout: Rosout | None, timeout: float) -> None:
-    """Close all that is open, within ``timeout`` seconds: composites first, which use roles,
-    then roles, and ``/rosout`` last, for what is logged meanwhile."""
+    """Close everything that is open within ``timeout`` seconds: first composites, which use
+    roles, then roles, and last ``/rosout``, which publishes what is logged meanwhile."""
     registrations = context.registrations
     try:
         async with asyncio.timeout(timeout):
@@ -29,7 +29,7 @@ async def close_members(context: Context, rosout: Rosout | None, timeout: float)
                 for each in context.members
                 if isinstance(each, Role) and not (rosout is not None and rosout.uses(each))
             ]
-            # What is being opened, or could not be taken back so far, has no open role.
+            # Entries that are being opened, or not yet unregistered, have no open role.
             await asyncio.gather(
                 _close_roles(context, roles, rosout), registrations.end(only_unfinished=True)
             )
@@ -41,7 +41,7 @@ async def close_members(context: Context, rosout: Rosout | None, timeout: float)
 async def _close_roles(context: Context, roles: list[Member], rosout: Rosout | None) -> None:
     await _close(context, roles)
     if rosout is not None:
-        # Those whose loops have ended now may have something to say.
+        # Code after a loop that has just ended may still log something.
         for _ in range(_LAST_TURNS):
             await asyncio.sleep(0)
         await rosout.finish()

@@ -1,4 +1,4 @@
-"""The base of what is made of several roles of a node, and lives as long as it."""
+"""The base class of objects made of several roles that live on a node."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ M = TypeVar("M", bound=Member)
 
 @public
 class Composite:
-    """Several roles of one node, with tasks of their own, as one object.
+    """Several roles of one node, with their own tasks, as one object.
 
-    Action clients, transform listeners and bag recorders are such, and yours may be::
+    Action clients, transform listeners and bag recorders are composites. Yours can be, too::
 
         class Relay(aioros1.Composite):
             def __init__(self, node, source, target, type):
@@ -42,17 +42,17 @@ class Composite:
             ...
 
     The constructor does no I/O. ``async with x`` opens it and closes it at the end of the
-    block; ``await x`` opens it and returns it. It is closed by :meth:`close`, or with its
-    node, before the roles of that. Then its tasks are cancelled, and what it owns is closed,
-    the last first. If opening fails or is cancelled, what it had opened so far is closed.
+    block; ``await x`` opens it and returns it. It closes when you call :meth:`close`, or with
+    its node, before the node's roles. Closing cancels its tasks and then closes what it owns,
+    in reverse order. If opening fails or is cancelled, what it has opened so far is closed.
 
-    Derived classes have the methods that begin with an underscore for themselves:
-    :meth:`_open`, :meth:`_close` and :meth:`_abort` are called and may be replaced,
-    :meth:`_own`, :meth:`_create_task` and :meth:`_check_open` are there to be used. All other
-    names are free for them.
+    Methods that begin with an underscore are for derived classes. Override :meth:`_open`,
+    :meth:`_close` and :meth:`_abort`, which the base class calls. Call :meth:`_own`,
+    :meth:`_create_task` and :meth:`_check_open`. You may use any other name for your own
+    attributes.
     """
 
-    # What is our own has two underscores: derived classes choose names without looking here.
+    # Private names have two underscores, so that derived classes can choose names freely.
 
     def __init__(self, node: Node, name: str = "") -> None:
         if not isinstance(node, Node):
@@ -67,17 +67,17 @@ class Composite:
 
     @property
     def node(self) -> Node:
-        """The node that it lives on."""
+        """The node that the composite lives on."""
         return self.__node
 
     @property
     def name(self) -> str:
-        """What tells it from others of its kind."""
+        """The name that distinguishes it from others of its kind."""
         return self.__name
 
     @property
     def is_open(self) -> bool:
-        """Whether it can be used."""
+        """Whether you can use it."""
         return self.__state == "open"
 
     def __await__(self) -> Generator[Any, None, Self]:
@@ -95,10 +95,10 @@ class Composite:
         await self.close()
 
     async def close(self) -> None:
-        """Close it, with all that it owns. What is being opened is given up.
+        """Close it and everything it owns. If it is still opening, that is cancelled.
 
-        You may call it any number of times. When the wait is cancelled, closing goes on. An
-        exception of :meth:`_close` is logged.
+        You may call it any number of times. If you cancel the call, closing continues. An
+        exception in :meth:`_close` is logged.
         """
         if self.__state == "new":
             self.__state = "closed"
@@ -111,23 +111,23 @@ class Composite:
     # for derived classes
 
     async def _open(self) -> None:
-        """Open what it is made of. Called once."""
+        """Open the parts of the composite. Called once."""
 
     async def _close(self) -> None:
-        """Say what is to be said to others. All that it owns is still open."""
+        """Tell others that it closes. Everything it owns is still open."""
 
     def _abort(self) -> None:
-        """The node has ended: wake up whoever waits here, tell nobody."""
+        """Wake up everyone who waits for it, without telling peers: the node has ended."""
 
     async def _own(self, opening: Awaitable[M]) -> M:
-        """Await what ``node.advertise`` and the like, or another composite, give; the open
-        object, which is closed with this one."""
+        """Open a role, as returned by ``node.advertise`` and the like, or another composite.
+        Return the open object, which closes with this one."""
         member = await opening
         if self.__state not in ("opening", "open"):
             await member.close()
             raise self.__closed_error()
         if isinstance(member, Composite):
-            # It is closed by this one and not by the node, which would do so too soon.
+            # This composite closes it; the node would do so too soon.
             self.__node._context.members.pop(member, None)
         self.__owned.append(member)
         return member
@@ -135,7 +135,7 @@ class Composite:
     def _create_task(
         self, coro: Coroutine[Any, Any, object], *, name: str | None = None
     ) -> asyncio.Task[None]:
-        """Run a coroutine in a task that is cancelled when this is closed; otherwise as
+        """Run a coroutine in a task that is cancelled when the composite closes. Otherwise like
         :meth:`aioros1.Node.create_task`."""
         if self.__state not in ("opening", "open"):
             coro.close()
@@ -147,7 +147,7 @@ class Composite:
 
     def _check_open(self) -> None:
         """Raise :class:`~aioros1.ClosedError` unless it is open, and :class:`RuntimeError`
-        in another event loop than the node's."""
+        in an event loop other than the node's."""
         if self.__state != "open":
             raise self.__closed_error()
         self.__node._context.check_loop()
@@ -161,7 +161,7 @@ class Composite:
         context.check_open()
         self.__state = "opening"
         context.members[self] = self.__drop
-        # In a task of its own, so that closing can end it, whoever closes.
+        # In its own task, so that closing can cancel it from any task.
         opening = self.__opening = asyncio.create_task(self.__run_open(), name=f"open {self!r}")
         try:
             await asyncio.wait({opening})
@@ -169,12 +169,12 @@ class Composite:
             await self.close()
             raise
         if not opening.cancelled() and opening.exception() is None:
-            return self  # one of its tasks may have closed it already
+            return self  # one of its own tasks may have closed it already
         was_closed = self.__state == "closed"
         await self.close()
         if was_closed:
             raise self.__closed_error()
-        await opening  # which raises
+        await opening  # raises
         raise AssertionError("opening had failed")
 
     async def __run_open(self) -> None:
@@ -184,7 +184,7 @@ class Composite:
         self.__state = "open"
 
     def __end(self) -> None:
-        """Begin to close, once, in a task of the node, which no cancellation reaches."""
+        """Start to close, once, in a task of the node that callers cannot cancel."""
         if self.__closing is None and self.__state in ("opening", "open"):
             was_open = self.__state == "open"
             self.__state = "closed"
@@ -213,10 +213,10 @@ class Composite:
             opening.cancel()
             await asyncio.wait({opening})
         if not opening.cancelled():
-            opening.exception()  # whoever opens it gets that, if it still wants to know
+            opening.exception()  # the caller that opens it still gets the exception, if it waits
 
     async def __release(self) -> None:
-        """Cancel the tasks, and close what is owned, the last first."""
+        """Cancel the tasks, then close what is owned in reverse order."""
         tasks = tuple(self.__tasks)
         for task in tasks:
             task.cancel()
@@ -226,7 +226,7 @@ class Composite:
             await self.__owned.pop().close()
 
     def __drop(self) -> None:
-        """The node has ended, and there was no time to close."""
+        """Drop everything: the node has ended before the composite could close."""
         self.__state = "closed"
         if self.__opening is not None:
             self.__opening.cancel()

@@ -1,9 +1,8 @@
-"""Noticing that the master is gone, back, or another one, and that we have moved.
+"""Noticing that the master is lost, back or replaced, and that our own address has changed.
 
-Masters forget everything when they end, and tell nobody. A node that registered once
-would be a ghost from then on, so it asks again and again who the master is, and
-registers anew when that has changed. It would be one as well when its machine has got
-another address, and so it registers that one.
+Masters forget everything when they exit, and tell nobody. A node that registered only once
+would then be missing from the graph, so it checks regularly who the master is, and registers
+again when the master has changed. It does the same when its machine has a new address.
 """
 
 from __future__ import annotations
@@ -29,25 +28,25 @@ class Heartbeat:
     ) -> None:
         self._context = context
         self._own_address = own_address
-        self._ask_time = ask_time  # which time the node is to go by
+        self._ask_time = ask_time  # find out which time the node follows
         self._identity: tuple[int, str] | None = None
         self._is_lost = False
         self._is_stale = False
         self._is_stopped = False
         self.refusal: MasterError | None = None
-        """Why :meth:`greet` has failed, if it has."""
+        """The error of :meth:`greet`, if it failed."""
 
     def stop(self) -> None:
-        """Register nothing again from now on."""
+        """Stop registering again."""
         self._is_stopped = True
 
     @property
     def run_id(self) -> str | None:
-        """What the master calls this run of the graph; None before it was asked."""
+        """The master's ``/run_id``; None before the first answer."""
         return None if self._identity is None else self._identity[1]
 
     async def greet(self) -> bool:
-        """Ask once, without consequences; whether the master is there."""
+        """Ask once, without acting on the answer; return whether the master is there."""
         try:
             self._identity = await self._ask()
         except MasterError as error:
@@ -76,14 +75,14 @@ class Heartbeat:
         was_lost, self._is_lost = self._is_lost, False
         if self._is_stopped:
             return
-        with contextlib.suppress(MasterError):  # the next time
+        with contextlib.suppress(MasterError):  # tried again with the next heartbeat
             await self._ask_time()
         await self._move()
         if identity == known and not was_lost and not self._is_stale:
             await self._settle()
             return
-        # Also after an outage of the same master: what was registered meanwhile may
-        # not have reached it.
+        # Also after an outage of the same master, which may have missed registrations
+        # sent meanwhile.
         self._is_stale = not await self._register_again()
         if known is None or self._is_stale:
             return
@@ -103,15 +102,15 @@ class Heartbeat:
         return pid, run_id
 
     async def _move(self) -> None:
-        """Tell another address, if the one told is not this machine's any more."""
+        """Announce a new address if this machine no longer has the announced one."""
         context = self._context
         old = context.address.known_host
         new = await self._own_address.successor(old)
         if old is None or new is None:
             return
         context.log.warning("the address %s is lost; others are told %s now", old, new)
-        # Not only renewed: the master would take the same name at another address for
-        # another node, and tell whoever has the old address now to end.
+        # Unregister first: the master would take the same name at another address for
+        # another node, and tell whoever has the old address now to shut down.
         self._is_stale = True
         await self._all(registration.withdraw() for registration in self._registrations)
         context.address.known_host = new
@@ -119,11 +118,11 @@ class Heartbeat:
         context.xmlrpc.close_idle()
 
     async def _register_again(self) -> bool:
-        """Register everything anew, all at once; whether the master took all of it."""
+        """Register everything again, concurrently; return whether the master accepted all."""
         return await self._all(registration.renew() for registration in self._registrations)
 
     async def _settle(self) -> None:
-        """Tell the master what it could not be told, or may not have heard."""
+        """Repeat requests to the master that failed or may have been lost."""
         behind = [registration for registration in self._registrations if registration.is_behind]
         if behind:
             await self._all(registration.settle() for registration in behind)

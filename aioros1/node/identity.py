@@ -22,15 +22,15 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """A node's name, its place in the graph, and how it calls others."""
+    """A node's name, its place in the graph, and its remappings."""
 
     base_name: str
     namespace: str
     master_uri: str
     host: str | None
-    """What others are told to connect to, if anything says."""
+    """The host to announce, if one is given."""
     host_words: str
-    """What says so, as it was written: ``ROS_IP=10.0.0.2``."""
+    """Where the host comes from, as it was written: ``ROS_IP=10.0.0.2``."""
     remappings: Mapping[str, str]
     private_params: Mapping[str, Any]
     log_file: str | None
@@ -52,14 +52,14 @@ class Identity:
         remap: Mapping[str, str] | None,
         anonymous: bool,
     ) -> Self:
-        """Arguments count most, then the command line, then the environment.
+        """Arguments override the command line, which overrides the environment.
 
-        Only the name is different: it is a program's default, which ``__name:=`` of
-        roslaunch replaces, and then it is not made anonymous.
+        The name is the exception: the argument is only a default, which ``__name:=`` from
+        roslaunch replaces. The name is then not made anonymous.
 
-        Raises :class:`~aioros1.InvalidNameError`, and :class:`ValueError` for a master
-        URI, a host or a parameter value that cannot be read; both name the word or the
-        variable that it comes from.
+        Raises :class:`~aioros1.InvalidNameError`, and :class:`ValueError` for an invalid
+        master URI, host or parameter value. Both name the word or variable that it comes
+        from.
         """
         arguments = names.parse_args(argv)
         special = _Settings(arguments.special)
@@ -96,9 +96,9 @@ class Identity:
 
 
 def master_uri_of(uri: str | None = None) -> str:
-    """``uri`` itself, or what ``ROS_MASTER_URI`` says, or the usual one.
+    """Return ``uri``, or else ``ROS_MASTER_URI``, or else the default URI.
 
-    Raises :class:`ValueError` for what is no URI of a master.
+    Raises :class:`ValueError` for a URI that cannot be a master's.
     """
     if uri:
         return _check_uri(uri)
@@ -107,15 +107,15 @@ def master_uri_of(uri: str | None = None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Settings:
-    """Words of a command line, or variables of the environment."""
+    """Words of a command line, or environment variables."""
 
     values: Mapping[str, str]
     assign: str = ":="
 
     def read(self, name: str, check: Callable[[str], T]) -> T | None:
-        """What ``check`` makes of a value; None when it is not set, or to nothing.
+        """Return ``check(value)``; None when the value is not set or empty.
 
-        What ``check`` raises names where the value comes from.
+        Errors that ``check`` raises name where the value comes from.
         """
         value = self.values.get(name)
         if not value:
@@ -127,7 +127,7 @@ class _Settings:
             raise kind(f"{self.words(name)}: {error}") from None
 
     def words(self, name: str) -> str:
-        """A value that is set, and its name, as it was written."""
+        """The name and the value of a setting, as they were written."""
         return f"{name}{self.assign}{self.values[name]}"
 
 
@@ -149,9 +149,9 @@ def _check_uri(uri: str) -> str:
         parts = urlsplit(uri)
         host = parts.hostname or ""
         valid = parts.scheme == "http" and _is_host(host) and parts.port != 0
-        # Blanks around it and line ends in it are dropped by urlsplit, but not by others.
+        # urlsplit drops blanks around it and line ends in it, but others do not.
         valid = valid and not any(map(str.isspace, uri))
-    except (ValueError, AttributeError):  # the latter for what is not a str
+    except (ValueError, AttributeError):  # AttributeError when it is not a str
         valid = False
     if not valid:
         raise ValueError(f"master URI {uri!r}: expected http://host:port")
@@ -159,7 +159,7 @@ def _check_uri(uri: str) -> str:
 
 
 def _host(argument: str | None, special: _Settings) -> tuple[str | None, str]:
-    """What others are told to connect to, and what says so."""
+    """The host to announce, and where it comes from."""
     if argument:
         return _check_host(argument), f"host={argument!r}"
     for settings, name in (
@@ -182,8 +182,8 @@ def _check_host(host: str) -> str:
 
 
 def _is_host(host: str) -> bool:
-    """Whether it can be one. Whether it is, only those know whom it is told."""
-    if ":" in host:  # nothing but an IPv6 address, which may have a zone
+    """Whether it can be a host. Only those who are told to use it know whether it is one."""
+    if ":" in host:  # only an IPv6 address, which may have a zone
         return _is_ipv6(host.partition("%")[0])
     return host.isprintable() and not any(char in " /?#@[]" for char in host) and bool(host)
 

@@ -1,4 +1,4 @@
-"""What a node says to its master, and asks it, once there is one."""
+"""The first exchange between a node and its master, once there is one."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ __all__ = ["Introduction"]
 
 
 class Introduction:
-    """Sets the private parameters of the command line, and asks for the time to go by and
-    whether statistics are wanted."""
+    """Sets the private parameters of the command line, and asks which time to follow and
+    whether to publish statistics."""
 
     def __init__(
         self,
@@ -33,7 +33,7 @@ class Introduction:
         self._private_params = private_params
 
     async def was_made(self) -> bool:
-        """Make it; whether the master was there long enough for that."""
+        """Make the introduction; return whether the master answered throughout."""
         params = self._params
         try:
             for key, value in self._private_params.items():
@@ -42,9 +42,9 @@ class Introduction:
             await self._sim_time.ask()
         except MasterUnreachable:
             return False
-        # All that may fail, and is then done again, is behind us.
+        # Everything that may fail, and is then repeated, is done.
         if has_statistics:
-            from aioros1.node.statistics import Statistics  # here, as hardly anybody wants it
+            from aioros1.node.statistics import Statistics  # here, since few nodes need it
 
             context = self._context
             statistics = Statistics(context, self._topics, params)

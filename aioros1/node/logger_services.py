@@ -18,9 +18,9 @@ _RETRY = 1.0
 
 
 class LoggerServices:
-    """Tells and sets the levels of the loggers that are a node's business.
+    """Reports and sets the levels of a node's loggers.
 
-    These are its own, those that the option ``rosout`` names, and all below these.
+    These are its own logger, those that the option ``rosout`` names, and all below them.
     """
 
     def __init__(self, context: Context, services: Services, levels: LevelChanges) -> None:
@@ -29,7 +29,7 @@ class LoggerServices:
         self._levels = levels
 
     async def run(self) -> None:
-        """Provide both as soon as the master lets us."""
+        """Provide both services as soon as the master accepts them."""
         offered = [
             ("~get_loggers", "roscpp/GetLoggers", self._get_loggers),
             ("~set_logger_level", "roscpp/SetLoggerLevel", self._set_logger_level),
@@ -46,7 +46,7 @@ class LoggerServices:
 
     def _get_loggers(self, request: Any) -> dict[str, Any]:
         tops = [logging.getLogger(name) for name in self._context.log.names]
-        # Logging keeps placeholders for names that stand only within longer ones.
+        # logging keeps placeholders for names that only occur as parents of others.
         others = [
             logger
             for name, logger in sorted(logging.Logger.manager.loggerDict.copy().items())
@@ -63,7 +63,7 @@ class LoggerServices:
         level = request.level.lower()
         if level not in LEVELS:
             raise RosError(f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}")
-        # One that does not exist yet is made, as by rospy and roscpp: its user may come later.
+        # Create a logger that does not exist yet, as rospy and roscpp do: it may be used later.
         if not self._is_ours(request.logger):
             names = ", ".join(self._context.log.names)
             raise RosError(

@@ -1,4 +1,4 @@
-"""The node: what a program is in a ROS graph, and what it is made of."""
+"""The node, which represents a program in a ROS graph, and the parts it is made of."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ __all__ = ["Node"]
 
 @public
 class Node(TopicMethods, ServiceMethods, ParamMethods):
-    """A node of a ROS graph, in the event loop it is started in.
+    """A node of a ROS graph. It runs in the event loop that starts it.
 
     ::
 
@@ -77,32 +77,32 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     ``name`` is a base name without slashes; ``anonymous`` makes it unique.
     ``namespace``, ``master_uri`` and ``host`` default to ``ROS_NAMESPACE``,
-    ``ROS_MASTER_URI`` and ``ROS_HOSTNAME`` or ``ROS_IP``. ``host`` is what others are
-    told to connect to; without any of these it is the address of this machine that
-    faces the master. ``bind`` is the address to listen on: by default loopback if
-    ``host`` is that, else all; without ``host``, it is also what others are told, unless it
-    stands for all addresses. ``allow`` names the networks from which connections are taken
-    (``["127.0.0.0/8", "10.0.0.5", "fd00::/8"]``), of all others none; the master, which
-    calls the node, has to be in one of them. ``argv`` gives the words of a command line,
-    which then count more than the environment and less than arguments (``__name:=``,
-    ``__ns:=``, ``a:=b``, ``_param:=value``). ``remap`` maps names as ``a:=b`` does.
+    ``ROS_MASTER_URI`` and ``ROS_HOSTNAME`` or ``ROS_IP``. ``host`` is what the node tells
+    others to connect to; by default it is the address of this machine that faces the master.
+    ``bind`` is the address to listen on. It defaults to loopback if ``host`` is loopback, and
+    to all addresses otherwise. Without ``host``, the node also announces ``bind``, unless it
+    stands for all addresses. ``allow`` names the networks from which the node accepts
+    connections (``["127.0.0.0/8", "10.0.0.5", "fd00::/8"]``); it refuses all others. The
+    master calls the node, so it has to be in one of them. ``argv`` gives the words of a
+    command line (``__name:=``, ``__ns:=``, ``a:=b``, ``_param:=value``). They override the
+    environment; arguments override them. ``remap`` maps names as ``a:=b`` does.
 
-    ``store`` resolves type names. ``rosout`` publishes ``node.log`` on ``/rosout``; names of
-    loggers (``rosout=["myapp"]``) are published in addition, with all below them, at the
-    levels they have. ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
-    ``use_sim_time`` None does what the parameter ``/use_sim_time`` says, at the start and with
-    each heartbeat. ``heartbeat`` is how often, in seconds, the node looks after the master,
-    None for never. ``on_error`` says what becomes of an exception in a callback of yours:
-    ``"raise"`` closes the node and raises it where the node is used, ``"log"`` logs it, a
-    function is called with it. ``local_transports`` may name ``"intraprocess"`` and
-    ``"unix"``: topics then go past TCP between nodes of this library that are in one event
-    loop, or on one Linux host, if both sides name it.
+    ``store`` resolves type names. ``rosout`` publishes ``node.log`` on ``/rosout``. Logger
+    names (``rosout=["myapp"]``) publish these loggers too, with all below them, at their
+    current levels. ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
+    With ``use_sim_time`` None, the node follows the parameter ``/use_sim_time``, which it reads
+    at the start and with each heartbeat. ``heartbeat`` is how often, in seconds, the node
+    checks the master; None means never. ``on_error`` says what happens to an exception in
+    your callbacks: ``"raise"`` closes the node and raises it where you use the node, ``"log"``
+    logs it, and a function is called with it. ``local_transports`` may name
+    ``"intraprocess"`` and ``"unix"``: topics then bypass TCP between nodes of this library in
+    one event loop, or on one Linux host, if both sides name the transport.
 
-    A node belongs to its event loop: use it, and its roles, there and nowhere else. Other
-    threads hand their calls over (:class:`~aioros1.contrib.threads.NodeThread` does that for
-    you); a call that would come from elsewhere raises :class:`RuntimeError`.
+    A node belongs to its event loop: use it and its roles only there. Other threads must pass
+    their calls to that loop, as :class:`~aioros1.contrib.threads.NodeThread` does for you.
+    Calls from anywhere else raise :class:`RuntimeError`.
 
-    The constructor does no I/O. Raises :class:`~aioros1.InvalidNameError`,
+    The constructor does no I/O. It raises :class:`~aioros1.InvalidNameError`,
     :class:`ValueError` and :class:`TypeError`, which name the option.
     """
 
@@ -151,32 +151,32 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             on_error=on_error,
             local_transports=local_transports,
         )
-        """What the node was made with."""
+        """The options the node was created with."""
         if not isinstance(store, MessageStore | None):
             raise TypeError(f"store must be a MessageStore or None, got {store!r}")
         identity = Identity.of(name, argv or (), namespace, master_uri, host, remap, anonymous)
         self.name = identity.name
-        """The full name."""
+        """The full name of the node."""
         self.base_name = identity.base_name
         """The name without the namespace."""
         self.namespace = identity.namespace
-        """The namespace, which ends with no slash unless it is ``/``."""
+        """The namespace, without a slash at the end unless it is ``/``."""
         self.master_uri = identity.master_uri
         """The URI of the master."""
         self.log_file = identity.log_file
-        """The file that the word ``__log:=`` of ``argv`` names; None if there is none."""
+        """The file that ``__log:=`` in ``argv`` names; None without that word."""
 
-        # What all parts are given.
+        # What every part receives.
         supervisor = Supervisor(f"node {self.name}", _Life(self), self._report)
         events: Broadcast[Event] = Broadcast()
         clock = Clock(lambda before, now: events.publish(_jump(before, now)))
         self.log = NodeLog(self.name, clock.steady, () if isinstance(rosout, bool) else rosout)
         """A :class:`logging.LoggerAdapter`, whose records go to ``/rosout``."""
         self.store = store if store is not None else default_store()
-        """Resolves the names of types."""
+        """Resolves type names."""
         xmlrpc = XmlRpcClient(timeouts=timeouts, limits=limits)
         self.master = MasterProxy(xmlrpc, self.master_uri, self.name)
-        """The master, as it is called."""
+        """The proxy for calls to the master."""
         own_address = OwnAddress(identity.host, bind, self.master_uri, words=identity.host_words)
         self._supervisor = supervisor
         self._events = events
@@ -216,7 +216,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._services = Services(context)
         self._params = Params(context)
         self.graph = Graph(context)
-        """What there is in the graph."""
+        """The ROS graph: its nodes, topics and services."""
         sim_time = SimTime(context, self._topics, self._params)
         self._heartbeat = Heartbeat(context, own_address, sim_time.ask)
         self._introduction = Introduction(
@@ -232,14 +232,14 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._rosout: Rosout | None = None
         self._close_timeout = timeouts.close
 
-    # life
+    # lifecycle
 
     async def start(self) -> Self:
-        """Listen, and greet the master if it is there. ``async with node`` does this.
+        """Listen, and contact the master if it is there. ``async with node`` does this.
 
         The master need not be there: see :meth:`wait_for_master`. Raises
-        :class:`OSError` when an address or port cannot be had, :class:`RuntimeError`
-        when the node was started before.
+        :class:`OSError` when an address or port is not available, and
+        :class:`RuntimeError` when the node was started before.
         """
         if self._supervisor.state != "new":
             raise RuntimeError(f"node {self.name} was started before; make a new Node")
@@ -249,11 +249,11 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         return self
 
     async def close(self, timeout: float | None = None) -> None:
-        """Close all roles, tell the master, free everything.
+        """Close all roles, tell the master, and free everything.
 
-        You may call it any number of times, also at the same time. Others are given
-        ``timeout`` seconds (``timeouts.close`` by default) for all of it; then what is
-        left is dropped, so that nothing is held afterwards whatever they do.
+        You may call it any number of times, also concurrently. The node waits at most
+        ``timeout`` seconds (``timeouts.close`` by default) for others, then drops whatever
+        is left. It holds no resources afterwards, whatever others do.
         """
         supervisor = self._supervisor
         if supervisor.state == "new":
@@ -266,7 +266,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         await supervisor.wait()
 
     def abort(self) -> None:
-        """Drop everything at once, without a word to the master or to peers."""
+        """Drop everything at once, without telling the master or peers."""
         self._context.check_loop()
         self._close_timeout = 0
         self._supervisor.end("aborted")
@@ -300,12 +300,12 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         except asyncio.CancelledError:
             if not was_cancelled_by_us:
                 raise
-            await self.close()  # the cancellation had not been delivered yet
+            await self.close()  # the cancellation was not delivered yet
         failure = self._user_errors.failure
         if failure is not None and (exc is None or was_cancelled_by_us):
             raise failure
 
-    # what it is
+    # properties
 
     @property
     def state(self) -> str:
@@ -314,12 +314,12 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     @property
     def is_open(self) -> bool:
-        """Whether the node can be used."""
+        """Whether you can use the node."""
         return self._context.is_open
 
     @property
     def close_reason(self) -> str | None:
-        """Why the node was closed or is closing; None while it is not."""
+        """Why the node is closed or closing; None while it is neither."""
         return self._supervisor.reason
 
     @property
@@ -334,9 +334,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     @property
     def host(self) -> str:
-        """What others are told to connect to.
+        """The host the node announces to others.
 
-        Raises :class:`RuntimeError` before the node is started, if nothing says it.
+        Raises :class:`RuntimeError` before the node is started, unless the host is given.
         """
         return self._context.address.host
 
@@ -347,27 +347,27 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     @property
     def tcpros_address(self) -> tuple[str, int]:
-        """Host and port for topics and services."""
+        """The host and port for topics and services."""
         return self._context.address.tcpros
 
     @property
     def tcpros_uri(self) -> str:
-        """The same for services, as the master is told."""
+        """The URI the node registers its services with."""
         return self._context.address.tcpros_uri
 
     @property
     def pid(self) -> int:
-        """The process id, which ``getPid`` answers."""
+        """The process id, which ``getPid`` returns."""
         return os.getpid()
 
     @property
     def run_id(self) -> str | None:
-        """What the master calls this run of the graph; None while it was not reached."""
+        """The master's ``/run_id``; None until the master was reached."""
         return self._heartbeat.run_id
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
-        """All connections, of topics, services and callers."""
+        """All connections of topics, services and service callers."""
         return self._context.connections.infos
 
     @property
@@ -378,7 +378,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     @property
     def stats(self) -> NodeStats:
-        """Sums of what the open roles have counted."""
+        """Counters summed over the open roles."""
         members = self._context.members
         stats = [role.stats for role in members if isinstance(role, Role)]
         doors = (self._acceptor.admission, self._server.admission)
@@ -402,7 +402,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         return self._context.resolve_name(name)
 
     def events(self) -> EventStream[Event]:
-        """Iterate over what happens to the node from now on; ends with the node."""
+        """Iterate over the node's events from now on; the iteration ends with the node."""
         self._context.check_iterator()
         return self._events.subscribe()
 
@@ -413,8 +413,8 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     ) -> asyncio.Task[None]:
         """Run a coroutine in a task of the node, which is cancelled when the node closes.
 
-        An exception of it is treated as ``on_error`` says, and does not come out of the
-        task, whose result is None. Raises :class:`~aioros1.ClosedError`.
+        An exception in the coroutine is handled as ``on_error`` says. The task itself does
+        not raise it; its result is None. Raises :class:`~aioros1.ClosedError`.
         """
         if not asyncio.iscoroutine(coro):
             raise TypeError(f"create_task() takes a coroutine, got {coro!r}")
@@ -423,9 +423,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             self._context.check_open()
             task = self._context.spawn(self._run_for_user, coro, what, name=what)
         except BaseException:
-            coro.close()  # Python warns of one that is never awaited
+            coro.close()  # Python warns if it is never awaited
             raise
-        task.add_done_callback(lambda _: coro.close())  # cancelled before its first step
+        task.add_done_callback(lambda _: coro.close())  # if cancelled before its first step
         return task
 
     async def _run_for_user(self, coro: Coroutine[Any, Any, object], what: str) -> None:
@@ -438,9 +438,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             self._context.user_error(reported, what)
 
     def handle_error(self, error: Exception, what: str) -> None:
-        """Treat an exception that ``what`` has raised as ``on_error`` says.
+        """Handle an exception that ``what`` raised as ``on_error`` says.
 
-        For code that calls your callbacks where nobody awaits them.
+        This is for code that calls callbacks where nobody awaits them.
         """
         self._context.check_loop()
         self._context.user_error(error, what)
@@ -448,7 +448,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     # the graph
 
     async def peer(self, name: str) -> NodeProxy:
-        """Another node, by name. Raises :class:`~aioros1.MasterError` if there is none."""
+        """Look up another node by name. Raises :class:`~aioros1.MasterError` if there is none."""
         context = self._context
         name = context.resolve_name(name)
         return NodeProxy(context.xmlrpc, await self.master.lookup_node(name), self.name, name)
@@ -466,21 +466,24 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     # time
 
     def now(self) -> Time:
-        """The time: of ``/clock`` if the node follows that, else the wall clock's."""
+        """The current time: that of ``/clock`` if the node follows it, else the wall clock's."""
         return Time.from_nsec(self._context.clock.nanoseconds())
 
     @property
     def uses_sim_time(self) -> bool:
-        """Whether the time is that of ``/clock``."""
+        """Whether the node follows the time of ``/clock``."""
         return self._context.clock.is_simulated
 
     async def sleep(self, duration: float | Duration) -> None:
-        """Wait for seconds of this node's time. Raises :class:`~aioros1.ClosedError`."""
+        """Sleep for ``duration`` seconds of this node's time.
+
+        Raises :class:`~aioros1.ClosedError`.
+        """
         self._context.check_loop()
         await self._context.clock.sleep(duration)
 
     def rate(self, hz: float) -> Rate:
-        """Iterate ``hz`` times a second of this node's time; ends with the node.
+        """Iterate ``hz`` times per second of this node's time; ends with the node.
 
         Raises :class:`ValueError` for a rate that is not positive.
         """
@@ -494,10 +497,10 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         *,
         oneshot: bool = False,
     ) -> Timer:
-        """Call a function, or a coroutine function, every ``period`` seconds with the time.
+        """Call a function or coroutine function with the time, every ``period`` seconds.
 
-        It ends with the node, or by :meth:`aioros1.Timer.cancel`. What it raises is treated
-        as ``on_error`` says.
+        The timer ends with the node, or when you call :meth:`aioros1.Timer.cancel`. Exceptions
+        in the function are handled as ``on_error`` says.
         """
         context = self._context
         context.check_open()
@@ -507,16 +510,16 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     @property
     def next_wakeup(self) -> Time | None:
-        """The earliest moment of simulated time that somebody waits for here; None if nobody
-        does. For whoever drives ``/clock`` in steps."""
+        """The earliest simulated time that anything in this node waits for; None if nothing
+        does. This is for programs that step ``/clock``."""
         moment = self._context.clock.next_awaited
         return None if moment is None else Time.from_nsec(moment)
 
     async def wait_for_time(self, time: Time, *, timeout: float | None = None) -> None:
         """Wait until the simulated time is exactly ``time``, a step of ``/clock``.
 
-        For whoever drives that. Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`.
+        This is for programs that step ``/clock``. Raises :class:`TimeoutError` after
+        ``timeout`` seconds, and :class:`~aioros1.ClosedError`.
         """
         self._context.check_loop()
         await self._context.clock.wait_until_shows(time.to_nsec(), timeout=timeout)
@@ -530,7 +533,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._context.report(error, what)
 
     def _shut_down(self, reason: str) -> None:
-        """The master, or anybody else, wants the node to end."""
+        """Close the node because the master, or anybody else, asked for it."""
         self.log.info("shutdown requested: %s", reason)
         self._supervisor.end(reason)
 
@@ -561,7 +564,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             context.spawn(self._heartbeat.run, options.heartbeat, name=f"{self.name} heartbeat")
 
     async def _check_address(self) -> None:
-        """Warn of an address that others can hardly use. Nobody waits for the look-up."""
+        """Warn if others can probably not use the address. Nothing waits for the lookup."""
         if (doubt := await self._own_address.doubt()) is not None:
             self.log.warning("%s", doubt)
 
@@ -599,20 +602,20 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         for abort in tuple(members.values()):
             try:
                 abort()
-            except Exception as error:  # of a composite: the others are dropped all the same
+            except Exception as error:  # in a composite: still drop the others
                 self._context.report(error, "dropping what was open")
         members.clear()
         self._end_time()
         self._events.close()
 
     def _end_time(self) -> None:
-        """No more time comes: whoever waits for it goes on."""
+        """Stop the clock, which wakes up everyone who waits for it."""
         why = ClosedError(f"node {self.name} is closed ({self.close_reason})")
         self._context.clock.fail(why)
 
 
 class _Life:
-    """The steps of a node's life, which its supervisor takes."""
+    """The steps of a node's life, which its supervisor runs."""
 
     def __init__(self, node: Node) -> None:
         self.begin = node._begin

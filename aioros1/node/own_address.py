@@ -1,4 +1,4 @@
-"""What a node tells others to connect to, and what becomes of that when it is lost."""
+"""The address a node announces, and how it finds another when its machine loses that one."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ __all__ = ["OwnAddress"]
 class OwnAddress:
     """The address of one node: the one it was given, or the one that faces its master.
 
-    ``given`` is what arguments and environment say, and ``words`` how they say it; ``bind``
-    is where to listen. One address to listen on is one to tell.
+    ``given`` is the host from the arguments or the environment, and ``words`` how it was
+    written. ``bind`` is where to listen; a single address to listen on is also announced.
     """
 
     def __init__(
@@ -36,31 +36,31 @@ class OwnAddress:
         if given is None and is_loopback(self._master):
             given = self._master
         self.given = given
-        """What others are told, if something says it; None if it is to be found."""
+        """The host to announce, if it is given; None if the node has to find it."""
 
     @property
     def is_given(self) -> bool:
-        """Whether something says it, and it has not to be found."""
+        """Whether the host is given, so that the node need not find it."""
         return self.given is not None
 
     async def find(self) -> tuple[str, str]:
-        """Look for an address that nobody has given.
+        """Find the address when none is given.
 
-        Returns what to tell others, and where to listen.
+        Returns the host to announce, and the address to listen on.
         """
         told = self.given if self.given is not None else await self._facing() or "localhost"
         if self._bind is not None:
             return told, self._bind
         if self.is_given:
             return told, bind_address_for(told)
-        # Also when there is no network yet, and therefore nothing to tell but localhost.
+        # Also when there is no network yet, and only localhost can be announced.
         return told, every_interface(told)
 
     async def doubt(self) -> str | None:
-        """What seems to be wrong with an address that was given, if anything does.
+        """Describe what seems wrong with a given address, if anything does.
 
-        A name is looked up, which takes as long as it takes. It is no error: this machine
-        may have a name that only others know, and an address that only a router knows.
+        This looks up names, which may take a while. A doubt is no error: this machine may have
+        a name that only others know, and an address that only a router knows.
         """
         host = self.given
         if host is None or is_loopback(host):
@@ -84,16 +84,17 @@ class OwnAddress:
         )
 
     async def successor(self, told: str | None) -> str | None:
-        """What to tell now, if the address that was ``told`` is this machine's no more.
+        """The address to announce now, if this machine no longer has the address ``told``.
 
-        As long as it is, others can go on using it, whatever faces the master now.
+        As long as the machine has it, others can keep using it, whichever address faces the
+        master now.
         """
         if self.is_given or told is None or is_local(told):
             return None
         return await self._facing()
 
     async def _facing(self) -> str | None:
-        """The address of this machine that faces the master, if any does."""
+        """The address of this machine that faces the master, if there is one."""
         with contextlib.suppress(OSError):
             for _, address in await resolve(self._master):
                 with contextlib.suppress(OSError):

@@ -1,4 +1,4 @@
-"""The methods of a node that are about parameters."""
+"""The parameter methods of a node."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ __all__ = ["ParamMethods"]
 
 
 class ParamMethods:
-    """The part of :class:`~aioros1.Node` that is about parameters."""
+    """The parameter methods of :class:`~aioros1.Node`."""
 
     _params: Params
 
     def subscribe_param(self, key: str, *, default: Any = ...) -> Opening[ParamSubscriber]:
-        """Follow a parameter and all below it.
+        """Follow a parameter and everything below it.
 
         ``default`` is its value while it is not set. Raises
         :class:`~aioros1.MasterError`, :class:`~aioros1.InvalidNameError` and
@@ -26,20 +26,20 @@ class ParamMethods:
         return Opening(self._params.subscribe(key, default), f"subscriber of parameter {key}")
 
     async def get_param(self, key: str, default: Any = ...) -> Any:
-        """The value of a parameter, or a dict of all below it.
+        """Return the value of a parameter, or a dict of everything below it.
 
         Raises :class:`KeyError` when it is not set and there is no default,
         :class:`~aioros1.MasterUnreachable`, and :class:`~aioros1.MasterError` for an answer
-        that cannot be read, because it is beyond the limits perhaps.
+        that cannot be read, for example because it exceeds the limits.
         """
         return await self._params.get(key, default)
 
     async def set_param(self, key: str, value: Any) -> None:
-        """Set a parameter: bool, int, float, str, list, dict, bytes or datetime.
+        """Set a parameter to a bool, int, float, str, list, dict, bytes or datetime.
 
-        Raises :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for what
-        XML-RPC cannot carry, and :class:`~aioros1.MasterError`. When it is cancelled the
-        parameter is set all the same, before whatever is set or deleted next.
+        Raises :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for values
+        that XML-RPC cannot carry, and :class:`~aioros1.MasterError`. If you cancel the call,
+        the parameter is still set, before the next one is set or deleted.
         """
         await self._params.set(key, value)
 
@@ -48,28 +48,28 @@ class ParamMethods:
         return await self._params.has(key)
 
     async def delete_param(self, key: str) -> None:
-        """Delete a parameter and all below it.
+        """Delete a parameter and everything below it.
 
         Raises :class:`KeyError` when it is not set, :class:`~aioros1.MasterUnreachable`, and
-        :class:`~aioros1.MasterError` for an answer that is none of a master. When it is
-        cancelled it goes on, as :meth:`set_param` does.
+        :class:`~aioros1.MasterError` for an answer that is not a master's. If you cancel the
+        call, the parameter is still deleted, as with :meth:`set_param`.
         """
         await self._params.delete(key)
 
     async def search_param(self, key: str) -> str | None:
-        """The full key of the nearest parameter of that name: in the node's private
+        """Return the full key of the nearest parameter of that name: in the node's private
         namespace, then in its namespace and up to the root. None if there is none.
 
         Raises :class:`~aioros1.MasterUnreachable`, and :class:`~aioros1.MasterError` for an
-        answer that is none of a master.
+        answer that is not a master's.
         """
         return await self._params.search(key)
 
     async def get_param_names(self) -> list[str]:
-        """The keys of all parameters. Raises :class:`~aioros1.MasterError`."""
+        """Return the keys of all parameters. Raises :class:`~aioros1.MasterError`."""
         return await self._params.names()
 
     async def get_param_cached(self, key: str, default: Any = ...) -> Any:
-        """As :meth:`get_param`, but follows the parameter from the first time on, so that
-        the master is not asked again."""
+        """Like :meth:`get_param`, but follow the parameter from the first call on, so that
+        later calls do not ask the master."""
         return await self._params.get_cached(key, default)

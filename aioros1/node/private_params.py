@@ -12,11 +12,11 @@ _WORDS = {"true": True, "false": False}
 
 
 def parse_value(text: str) -> Any:
-    """What ``text`` means: YAML where PyYAML is installed, as for every program of ROS 1.
+    """Parse ``text`` as YAML if PyYAML is installed, as every program of ROS 1 does.
 
-    Without it a number, ``true`` or ``false`` are recognised, and anything else is text.
-    Nothing at all is the empty text. Raises :class:`ValueError` for what is not YAML, and
-    for what is no value of a parameter: null, a date without a time, numbers too large.
+    Without PyYAML, numbers, ``true`` and ``false`` are recognised, and anything else is a
+    string. Empty text is the empty string. Raises :class:`ValueError` for invalid YAML, and
+    for values that no parameter can have: null, a date without a time, numbers too large.
     """
     try:
         import yaml

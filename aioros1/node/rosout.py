@@ -24,19 +24,19 @@ __all__ = ["Rosout"]
 _RETRY = 1.0
 
 _WAITING = 10_000
-"""Records that wait to be published, at the most: of threads that log while the event loop
-is busy, and of a node without a master."""
+"""The most records that wait to be published: from threads that log while the event loop is
+busy, and from a node without a master."""
 
 _FIRST_SUBSCRIBERS = 1.0
-"""Seconds that the first records wait for those who want them."""
+"""Seconds that the first records wait for subscribers."""
 
 
 class Rosout(SilentHandler):
-    """Publishes what the logger of a node is given, and the loggers that it was told.
+    """Publishes the records of a node's logger, and of the other loggers that it names.
 
-    What is logged in the loop of the node is published at once, what other threads log as
-    soon as the loop comes to it. The first records wait until the topic is advertised and
-    has its subscribers; a node does not wait for that with its start.
+    Records logged in the node's event loop are published at once; records from other threads
+    as soon as the loop gets to them. The first records wait until the topic is advertised and
+    has its subscribers; the start of a node does not wait for that.
     """
 
     def __init__(
@@ -54,16 +54,16 @@ class Rosout(SilentHandler):
         self._is_scheduled = False
         self._has_topics = True
         self._is_awaited = True
-        """Whether somebody may be about to hear the first records."""
+        """Whether subscribers of the first records may still be connecting."""
         self._progress = Waiters()
-        # As rosout has it; what else the application shows is up to its handlers.
+        # As rosout does; the application's own handlers decide what else it shows.
         levels.set_default(context.log.logger, logging.INFO)
         self._loggers = topmost(context.log.names)
         for logger in self._loggers:
             logger.addHandler(self)
 
     def detach(self) -> None:
-        """Leave the loggers as they were."""
+        """Restore the loggers."""
         for logger in self._loggers:
             logger.removeHandler(self)
         self._is_ready = False
@@ -72,7 +72,7 @@ class Rosout(SilentHandler):
         super().close()
 
     async def run(self) -> None:
-        """Advertise ``/rosout`` as soon as the master lets us, and publish what waits."""
+        """Advertise ``/rosout`` as soon as the master accepts it, then publish what waits."""
         options = PublisherOptions(latch=True, queue_size=100)
         while self._publisher is None:
             try:
@@ -82,7 +82,7 @@ class Rosout(SilentHandler):
             except MasterError:
                 self._expect(False)
                 await self._context.pause(_RETRY)
-        # As rospy and roscpp have it: for nodes with many topics.
+        # As rospy and roscpp do, for nodes with many topics.
         with contextlib.suppress(MasterError):
             disabled = await self._params.get("/rosout_disable_topics_generation", False)
             self._has_topics = disabled is not True
@@ -100,18 +100,18 @@ class Rosout(SilentHandler):
         self._progress.wake()
 
     async def settle(self, timeout: float) -> None:
-        """Before the node closes: let those hear the first records who are about to."""
+        """Before the node closes, let subscribers that are connecting get the first records."""
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(min(timeout, _FIRST_SUBSCRIBERS)):
                 while self._waiting and self._is_awaited:
                     await self._progress.wait()
 
     def uses(self, role: object) -> bool:
-        """Whether it is the publisher of ``/rosout``."""
+        """Whether ``role`` is the publisher of ``/rosout``."""
         return role is self._publisher
 
     async def finish(self) -> None:
-        """Publish what waits, and close the topic."""
+        """Publish what waits, then close the topic."""
         if self._publisher is not None:
             self._is_ready = True
             self._publish_waiting()
@@ -125,32 +125,32 @@ class Rosout(SilentHandler):
             fields = self._fields(record)
             is_here = _running_loop() is self._loop
             if is_here and self._is_publishing:
-                return  # it is about the publishing of another record, and would never end
+                return  # logged while publishing another record: it would never end
             self._waiting.append(fields)
             if self._is_ready:
                 if is_here:
                     self._publish_waiting()
                 else:
                     self._schedule()
-        except Exception:  # a record that cannot be formatted, as every handler does
+        except Exception:  # a record that cannot be formatted, handled as in every handler
             self.handleError(record)
 
     def _is_of_another(self, record: logging.LogRecord) -> bool:
-        """Whether it is of a node whose name, and so its logger, is below ours."""
+        """Whether it comes from a node whose name, and thus its logger, is below ours."""
         own, name = self._context.log.logger.name, self._context.name
         if f"{record.name}.".startswith(f"{own}."):
-            # The handler of the nearest node comes first.
+            # The handler of the nearest node is called first.
             record.__dict__.setdefault("ros_node", name)
         return getattr(record, "ros_node", name) != name
 
     def _fields(self, record: logging.LogRecord) -> dict[str, Any]:
-        """What does not change any more, whatever the thread does next."""
+        """The fields of a message, which do not change whatever the thread does next."""
         return {
             "header": {"stamp": Time.from_nsec(self._context.clock.nanoseconds())},
             "level": ros_level(record.levelno),
             "name": self._context.name,
             "msg": _sendable(self.format(record)),
-            # Records that were made by hand may have anything there.
+            # Records made by hand may have anything there.
             "file": _sendable(str(record.pathname)),
             "function": _sendable(str(record.funcName or "")),
             "line": record.lineno if record.lineno in range(1 << 32) else 0,
@@ -159,12 +159,12 @@ class Rosout(SilentHandler):
     def _schedule(self) -> None:
         if not self._is_scheduled:
             self._is_scheduled = True
-            # The loop may be closed, and the node never was.
+            # The loop may be closed although the node never was.
             with contextlib.suppress(RuntimeError):
                 self._loop.call_soon_threadsafe(self._publish_waiting)
 
     def _publish_waiting(self) -> None:
-        """In the loop only."""
+        """Publish the records that wait. Call it only in the event loop."""
         self._is_scheduled = False
         publisher = self._publisher
         if publisher is None or self._is_publishing or not self._is_ready:
@@ -172,11 +172,11 @@ class Rosout(SilentHandler):
         self._is_publishing = True
         try:
             topics = sorted(self._topics.publications) if self._has_topics else []
-            # Not those that threads add meanwhile, or a busy one would hold up the loop.
+            # Leave records that threads add meanwhile, or a busy thread would block the loop.
             for _ in range(len(self._waiting)):
                 publisher.publish(topics=topics, **self._waiting.popleft())
         except ClosedError:
-            self._waiting.clear()  # the last words of a node that is closed go elsewhere
+            self._waiting.clear()  # a closed node no longer publishes
         finally:
             self._is_publishing = False
 
@@ -189,5 +189,5 @@ def _running_loop() -> asyncio.AbstractEventLoop | None:
 
 
 def _sendable(text: str) -> str:
-    """The text, with escapes for what is no character."""
+    """Return the text, with escapes for anything that is no character."""
     return text if text.isascii() else text.encode("utf-8", "backslashreplace").decode()

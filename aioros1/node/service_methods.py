@@ -1,4 +1,4 @@
-"""The methods of a node that are about services."""
+"""The service methods of a node."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class _CallerKeywords(TypedDict, total=False):
 
 
 class ServiceMethods:
-    """The part of :class:`~aioros1.Node` that is about services."""
+    """The service methods of :class:`~aioros1.Node`."""
 
     _services: Services
 
@@ -77,14 +77,13 @@ class ServiceMethods:
         """Open a service provider.
 
         ``handler`` is a function or a coroutine function: it takes the request and
-        returns the response, a dict of its fields, or None for a default response. What
-        it raises is the caller's error. Without a handler, iterate the provider. At most
-        ``max_concurrency`` calls are worked on at a time. With ``raw`` requests and
-        responses are serialised bytes, and ``type`` may be ``"*"``: calls of any type are
-        taken then.
+        returns the response, a dict of its fields, or None for a default response. If it
+        raises, the caller gets the error. Without a handler, iterate over the provider. At
+        most ``max_concurrency`` calls run at a time. With ``raw``, requests and responses
+        are serialised bytes, and ``type`` may be ``"*"`` to accept calls of any type.
 
-        Raises as :meth:`advertise` does, and :class:`ValueError` when this node provides
-        the service already.
+        Raises as :meth:`advertise` does, and :class:`ValueError` when this node already
+        provides the service.
         """
         options = ServiceProviderOptions(max_concurrency=max_concurrency, raw=raw)
         opening = self._services.advertise(name, type, handler, options)
@@ -120,16 +119,16 @@ class ServiceMethods:
     ) -> Opening[ServiceCaller[Any, Any]]:
         """Open a service caller; see :class:`~aioros1.ServiceCallerOptions` for the options.
 
-        ``type`` is a service class, ours or genpy's, or ``"pkg/Type"``; then nobody is
-        asked whether the service is there. With ``"*"`` its provider is asked for the
-        type, within ``timeout``, and the definition is that of the node's store. With
-        ``raw`` requests and responses are serialised bytes, and nobody is asked for the
-        type even if it is ``"*"``.
+        ``type`` is a service class, ours or genpy's, or ``"pkg/Type"``; opening then does
+        not check whether the service exists. With ``"*"``, the node asks the provider for
+        the type, within ``timeout``, and takes the definition from its store. With ``raw``,
+        requests and responses are serialised bytes, and the node does not ask for the type
+        even if it is ``"*"``.
 
         Raises :class:`~aioros1.MessageError`, :class:`~aioros1.InvalidNameError` and
-        :class:`~aioros1.ClosedError`; with ``"*"`` what :meth:`service_type` raises, and
-        :class:`~aioros1.MessageNotFoundError` for a type without a definition here,
-        :class:`~aioros1.Md5MismatchError` for one with another definition.
+        :class:`~aioros1.ClosedError`. With ``"*"``, also raises what :meth:`service_type`
+        raises, :class:`~aioros1.MessageNotFoundError` for a type without a definition here,
+        and :class:`~aioros1.Md5MismatchError` for one with a different definition.
         """
         options = ServiceCallerOptions(
             persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay, raw=raw
@@ -169,14 +168,14 @@ class ServiceMethods:
         timeout: float | None = None,
         **fields: Any,
     ) -> Any:
-        """One call of a service; see :meth:`service_caller` and :meth:`aioros1.ServiceCaller.call`.
+        """Call a service once; see :meth:`service_caller` and :meth:`aioros1.ServiceCaller.call`.
 
-        ``timeout`` covers the question for the type as well.
+        ``timeout`` includes asking for the type.
         """
         return await self._services.call(name, type, request, timeout, fields)
 
     async def service_type(self, name: str) -> str:
-        """The type of a service, as its provider says it.
+        """Ask the provider of a service for its type.
 
         Raises :class:`~aioros1.ServiceNotFound` when the master knows no provider,
         :class:`~aioros1.ServiceUnavailable` when it cannot be reached,

@@ -1,4 +1,4 @@
-"""Which time a node has: the parameter ``/use_sim_time``, and the topic ``/clock``.
+"""Which time a node follows: the parameter ``/use_sim_time`` and the topic ``/clock``.
 
 https://wiki.ros.org/Clock
 """
@@ -18,15 +18,14 @@ __all__ = ["SimTime"]
 _RETRY = 1.0
 
 _SILENCE = 5.0
-"""Seconds without any time on ``/clock`` after which that is worth a warning."""
+"""Seconds without a message on ``/clock`` before the node warns."""
 
 
 class SimTime:
-    """Has the clock of a node show what ``/clock`` says, while that is wanted.
+    """Makes the clock of a node follow ``/clock`` while simulated time is enabled.
 
-    It is while ``/use_sim_time`` is true, unless the options of the node say for themselves.
-    A parameter that was deleted, or has gone with its master, says nothing: the node keeps
-    the time that it has.
+    It is enabled while ``/use_sim_time`` is true, unless the options of the node decide. If
+    the parameter was deleted, or is gone with its master, the node keeps the time it follows.
     """
 
     def __init__(self, context: Context, topics: Topics, params: Params) -> None:
@@ -36,11 +35,11 @@ class SimTime:
         self._following: asyncio.Task[None] | None = None
 
     async def ask(self) -> None:
-        """Ask which time is wanted, and go by that from now on.
+        """Ask which time to follow, and follow it from now on.
 
-        With each heartbeat. A subscription to the parameter would be quicker; but masters
-        keep those of nodes that were killed for ever, and nothing cleans them up. Raises
-        :class:`~aioros1.MasterError`.
+        This happens with each heartbeat. Subscribing to the parameter would be quicker, but
+        masters keep the subscriptions of killed nodes forever, and nothing cleans them up.
+        Raises :class:`~aioros1.MasterError`.
         """
         wanted = self._context.options.use_sim_time
         if wanted is None:
@@ -57,7 +56,7 @@ class SimTime:
             clock.stop_simulating()
 
     async def _follow(self) -> None:
-        """Take the time from ``/clock``, as soon as the master lets us."""
+        """Take the time from ``/clock`` as soon as the master accepts the subscription."""
         while True:
             try:
                 await self._take_time()

@@ -1,7 +1,7 @@
-"""What a node answers to its master and to other nodes (https://wiki.ros.org/ROS/Slave_API).
+"""A node's answers to its master and to other nodes (https://wiki.ros.org/ROS/Slave_API).
 
-Every answer is ``[code, status, value]``. Code -1 says that the request was wrong, 0
-that it could not be done; rosnode, roswtf and the master read the values.
+Every answer is ``[code, status, value]``. Code -1 means that the request was wrong, 0
+that it failed. rosnode, roswtf and the master read the values.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Triple = list[Any]
 
 
 class SlaveApi:
-    """The ten methods, and the two that rospy has besides."""
+    """The ten methods of the slave API, and the two that rospy adds."""
 
     def __init__(
         self,
@@ -64,7 +64,7 @@ class SlaveApi:
         }
 
     def get_bus_stats(self, caller_id: Any) -> Triple:
-        """[publish, subscribe, service] counters, in the form that rospy gives."""
+        """Return [publish, subscribe, service] counters in rospy's format."""
         publish = [
             [
                 publication.name,
@@ -80,7 +80,7 @@ class SlaveApi:
             [
                 subscription.name,
                 [
-                    # We never lose what reached us, and cannot know what did not: -1.
+                    # We lose nothing that reaches us, and cannot know what did not: -1.
                     [info.id, _int32(info.stats.bytes), _int32(info.stats.messages), -1, True]
                     for info in subscription.connections
                 ],
@@ -120,7 +120,7 @@ class SlaveApi:
         return [1, "publications", rows]
 
     def shutdown(self, caller_id: Any, reason: Any = "") -> Triple | Reply:
-        """Answer, then close the node. Anybody may ask, as rosnode kill does."""
+        """Answer, then close the node. Anyone may call this, as rosnode kill does."""
         if not isinstance(reason, str):
             return _wrong("msg", reason, "a string")
         who = caller_id if isinstance(caller_id, str) else "unknown caller"
@@ -129,7 +129,7 @@ class SlaveApi:
     def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
         if not isinstance(key, str) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
-        # The master sends the key with a slash at its end, tools without.
+        # The master sends the key with a trailing slash, tools without.
         if not self._params.updated(canonicalize(key), value):
             return [-1, f"not subscribed to parameter {key}", 0]
         return [1, "", 0]
@@ -151,8 +151,8 @@ class SlaveApi:
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
         if self._topics.published(canonicalize(topic)) is None:
             return [-1, f"{self._context.name} does not publish {topic}", []]
-        # Others are passed over, whatever they look like: who asks for them may well
-        # understand this one too.
+        # Skip other protocols, whatever they look like: the caller may well support this
+        # one too.
         readable = [each for each in protocols if _is_protocol(each)]
         local = self._local.answer(readable)
         if local is not None:
@@ -168,7 +168,7 @@ class SlaveApi:
 def _bus_info(info: ConnectionInfo) -> list[Any]:
     return [
         info.id,
-        carriable(info.peer),  # it chose its name itself, in whatever octets
+        carriable(info.peer),  # it chose its own name, which may be any bytes
         info.direction,
         info.transport,
         info.name,
@@ -190,5 +190,5 @@ def _is_http_uri(value: object) -> bool:
 
 
 def _int32(count: int) -> int:
-    """XML-RPC integers have 32 bits; what does not fit wraps, as C counters do."""
+    """Wrap a count to 32 bits, the size of XML-RPC integers, as C counters do."""
     return (count + 0x80000000) % 0x100000000 - 0x80000000

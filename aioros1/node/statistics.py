@@ -1,7 +1,7 @@
-"""What came over each connection, on ``/statistics`` (https://wiki.ros.org/Topics#Topic_statistics).
+"""Traffic of each connection, on ``/statistics`` (https://wiki.ros.org/Topics#Topic_statistics).
 
-rqt_graph and others show it. A node publishes it if the parameter ``/enable_statistics`` is
-true when it starts; without, it costs a look at one attribute for each read of a socket.
+rqt_graph and other tools show it. A node publishes it if the parameter ``/enable_statistics``
+is true when it starts. Otherwise it costs one attribute look-up per socket read.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _RETRY = 1.0
 _LEFT_OUT = frozenset({"/statistics", "/clock"})
 _HEADER = struct.Struct("<III")  # seq, and the stamp's seconds and nanoseconds
 
-# Parameter and default: how many messages a window should have, and how many seconds.
+# Parameters and defaults: how many messages a window should have, and how many seconds.
 _PARAMS: dict[str, float] = {
     "min_elements": 10,
     "max_elements": 100,
@@ -42,7 +42,7 @@ _PARAMS: dict[str, float] = {
 
 
 class Statistics:
-    """Watches what a node receives."""
+    """Counts what a node receives, and publishes the statistics."""
 
     def __init__(self, context: Context, topics: Topics, params: Params) -> None:
         self._context = context
@@ -53,7 +53,7 @@ class Statistics:
         self._bounds = dict(_PARAMS)
 
     async def run(self) -> None:
-        """Read the parameters, advertise the topic, and have received from then on."""
+        """Read the parameters, advertise the topic, and start to count."""
         while self._publisher is None:
             try:
                 await self._begin()
@@ -71,7 +71,7 @@ class Statistics:
         )
 
     def received(self, subscription: Subscription, frames: list[Received]) -> None:
-        """Count what came over one connection; and publish, when its window is over."""
+        """Count what one connection received, and publish when its window is over."""
         if subscription.name in _LEFT_OUT or self._publisher is None:
             return
         batch = frames[0][0]
@@ -98,7 +98,7 @@ class Statistics:
 
 
 class _Window:
-    """One connection for a while; all times are nanoseconds of the node's clock."""
+    """One window of a connection. All times are nanoseconds of the node's clock."""
 
     def __init__(
         self,
@@ -124,7 +124,7 @@ class _Window:
                 continue
             seq, secs, nsecs = _HEADER.unpack_from(batch.data, start)
             self._ages.append(batch.received - secs * _SECOND - nsecs)
-            # A publisher that counts from the beginning again has not dropped anything.
+            # A publisher that restarts its count has not dropped anything.
             if self.last_seq is not None and seq > self.last_seq:
                 self._dropped += seq - self.last_seq - 1
             self.last_seq = seq
@@ -141,7 +141,8 @@ class _Window:
         }
 
     def next_length(self, bounds: dict[str, float]) -> int:
-        """Longer if few messages came, shorter if many did: as rospy and roscpp adapt it."""
+        """The next window's length: longer after few messages, shorter after many, as in rospy
+        and roscpp."""
         count, length = len(self._arrivals), self.length
         if count > bounds["max_elements"] and length / 2 >= bounds["min_size"] * _SECOND:
             return length // 2
@@ -165,6 +166,6 @@ def _summary(name: str, values: list[int]) -> dict[str, Duration]:
 
 
 def _within(nanoseconds: int) -> int:
-    """What a duration can hold: a stamp of 0 is half a century old and more."""
+    """Clip to what a duration can hold: a stamp of 0 is over half a century old."""
     limit = 0x7FFFFFFF * _SECOND
     return max(-limit, min(nanoseconds, limit))

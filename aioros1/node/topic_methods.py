@@ -1,4 +1,4 @@
-"""The methods of a node that are about topics."""
+"""The topic methods of a node."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class _SubscriberKeywords(TypedDict, total=False):
 
 
 class TopicMethods:
-    """The part of :class:`~aioros1.Node` that is about topics."""
+    """The topic methods of :class:`~aioros1.Node`."""
 
     _topics: Topics
 
@@ -63,10 +63,10 @@ class TopicMethods:
     ) -> Opening[Publisher[Any]]:
         """Open a publisher; see :class:`~aioros1.PublisherOptions` for the options.
 
-        ``type`` is a message class, ours or genpy's, or ``"pkg/Type"``. Several
-        publishers of one topic in one node look like one to the others. Raises
+        ``type`` is a message class, ours or genpy's, or ``"pkg/Type"``. Other nodes see
+        several publishers of one topic in this node as one. Raises
         :class:`~aioros1.MasterError`, :class:`~aioros1.MessageError`,
-        :class:`~aioros1.InvalidNameError`, :class:`~aioros1.ClosedError`.
+        :class:`~aioros1.InvalidNameError` and :class:`~aioros1.ClosedError`.
         """
         options = PublisherOptions(
             latch=latch,
@@ -143,11 +143,10 @@ class TopicMethods:
     ) -> Opening[Subscriber[Any]]:
         """Open a subscriber; see :class:`~aioros1.SubscriberOptions` for the options.
 
-        ``type`` is as for :meth:`advertise`, or ``"*"``: messages are then decoded as
-        each publisher defines them. ``callback`` takes each message, in place of an
-        iteration: a plain function is called where the message arrives, a coroutine
-        function is awaited message by message; see :class:`~aioros1.Subscriber`. Messages
-        that publishers have latched come first.
+        ``type`` is as for :meth:`advertise`, or ``"*"`` to decode messages as each publisher
+        defines them. ``callback`` takes each message, instead of an iteration: a plain
+        function is called as the message arrives, a coroutine function is awaited message
+        by message; see :class:`~aioros1.Subscriber`. Latched messages come first.
 
         Raises as :meth:`advertise` does, and :class:`TypeError` for a callback that cannot
         be called.
@@ -179,8 +178,8 @@ class TopicMethods:
     async def wait_for_message(
         self, topic: str, type: Any = "*", *, timeout: float | None = None
     ) -> Any:
-        """The next message of a topic.
+        """Return the next message of a topic.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and as :meth:`subscribe`.
+        Raises :class:`TimeoutError` after ``timeout`` seconds, and as :meth:`subscribe` does.
         """
         return await self._topics.wait_for_message(topic, type, timeout)

@@ -19,7 +19,7 @@ async def wait_for_master(uri: str | None = None, *, timeout: float | None = Non
     """Wait until a master answers at ``uri`` (``ROS_MASTER_URI`` by default).
 
     Raises :class:`TimeoutError` after ``timeout`` seconds, and :class:`ValueError` for
-    what is no URI.
+    an invalid URI.
     """
     uri = master_uri_of(uri)
     client = XmlRpcClient()
