@@ -1,4 +1,4 @@
-"""Waiting, within one event loop: for a change, for a limited time, for one's turn."""
+"""Waiting within one event loop: for a change, with a deadline, or for a lock."""
 
 from __future__ import annotations
 
@@ -14,45 +14,45 @@ __all__ = ["Deadlines", "Mutex", "Waiters", "deadline", "wait_for_any"]
 class Waiters:
     """Tasks that wait for a state to change.
 
-    Unlike a condition it has no lock, because in one loop nothing changes between two
-    awaits; unlike an event it needs no resetting.
+    Unlike a condition it has no lock, because in one event loop nothing changes between two
+    awaits; unlike an event it needs no reset.
     """
 
     __slots__ = ("_error", "_futures", "_loop")
 
     def __init__(self) -> None:
-        # Asked for once, as it takes a while. Who waits in another loop gets an error.
+        # Looked up once, because that is slow. Waiting in another loop raises an error.
         self._loop = _get_running_loop()
         self._futures: set[asyncio.Future[None]] = set()
         self._error: BaseException | None = None
 
     def wake(self) -> None:
-        """Let all who wait look again."""
+        """Let all waiting tasks check again."""
         futures = self._futures
         if futures:
-            for future in futures:  # nobody runs now, and changes the set
+            for future in futures:  # nothing else runs now that could change the set
                 _resolve(future)
             futures.clear()
 
     def fail(self, error: BaseException) -> None:
-        """Everyone who waits, now or later, gets ``error``."""
+        """Raise ``error`` in every task that waits, now or later."""
         self._error = error
         self.wake()
 
     def check(self) -> None:
-        """Raise what :meth:`fail` was given, if it was."""
+        """Raise the error given to :meth:`fail`, if there was one."""
         if self._error is not None:
             raise self._error
 
     async def wait(self, seconds: float | None = None) -> None:
-        """Wait for the next :meth:`wake`, at most for ``seconds``. Raises what :meth:`fail`
-        was given."""
+        """Wait for the next :meth:`wake`, at most for ``seconds``. Raises the error given to
+        :meth:`fail`."""
         if self._error is None:
             if self._loop is None:
                 self._loop = asyncio.get_running_loop()
             future = self._loop.create_future()
             self._futures.add(future)
-            # No asyncio.timeout(), which cancels the task and takes that back: 5 µs.
+            # Not asyncio.timeout(), which cancels the task and takes that back: 5 µs.
             timer = None if seconds is None else self._loop.call_later(seconds, _resolve, future)
             try:
                 await future
@@ -66,7 +66,7 @@ class Waiters:
     async def wait_until(
         self, predicate: Callable[[], bool], *, timeout: float | None, what: str
     ) -> None:
-        """Wait until ``predicate()`` holds, looking again after each :meth:`wake`.
+        """Wait until ``predicate()`` is true, checking again after each :meth:`wake`.
 
         Raises :class:`TimeoutError` saying ``what`` did not happen.
         """
@@ -78,7 +78,7 @@ class Waiters:
 
 
 async def wait_for_any(waiters: Sequence[Waiters]) -> None:
-    """Wait for the next :meth:`Waiters.wake` of any of them."""
+    """Wait for the next :meth:`Waiters.wake` of any of ``waiters``."""
     future = asyncio.get_running_loop().create_future()
     for each in waiters:
         each._futures.add(future)
@@ -94,15 +94,15 @@ def _resolve(future: asyncio.Future[None]) -> None:
         future.set_result(None)
 
 
-class deadline:  # noqa: N801 - it is used as asyncio.timeout is
-    """A limit of time for a block, whose error says what took too long.
+class deadline:  # noqa: N801 - it is used like asyncio.timeout
+    """A time limit for a block, whose error says what took too long.
 
     ``async with deadline(seconds, "what"):`` cancels the block after ``seconds`` (``None``
     sets no limit) and raises :class:`TimeoutError`: "what within N s". A cancellation from
     elsewhere, and a timeout of a caller further up, pass unchanged.
 
-    Written without :func:`asyncio.timeout`, because a wrapper of that doubles the cost of
-    something that each request pays for.
+    It does not wrap :func:`asyncio.timeout`, because that doubles a cost that every request
+    pays.
     """
 
     __slots__ = (
@@ -126,7 +126,7 @@ class deadline:  # noqa: N801 - it is used as asyncio.timeout is
         self._timer: asyncio.Handle | None = None
         self._has_expired = False
         self.why: object = ""
-        """What has been in the way so far, for the text of the error."""
+        """The obstacle so far, for the text of the error."""
 
     async def __aenter__(self) -> Self:
         self._task = task = asyncio.current_task()
@@ -154,7 +154,7 @@ class deadline:  # noqa: N801 - it is used as asyncio.timeout is
             self._owner._ended(self)
         if (
             self._has_expired
-            # More cancellations than before the block: somebody else wants the task to end.
+            # More cancellations than before the block: something else wants the task to end.
             and task.uncancel() <= self._cancelling
             and exc_type is not None
             and issubclass(exc_type, asyncio.CancelledError)
@@ -164,11 +164,11 @@ class deadline:  # noqa: N801 - it is used as asyncio.timeout is
             raise TimeoutError(f"{self._what}{within}{why}") from None
 
     def expire(self) -> None:
-        """End the block now, as if the time was over. Once it has ended this does nothing."""
+        """End the block now, as if its time was over. Does nothing once it has ended."""
         if self._task is not None and not self._has_expired:
             if self._timer is not None:
                 self._timer.cancel()
-            # Not at once: a task that cancels itself would learn of it after the block.
+            # Not at once: a task that cancels itself would notice only after the block.
             self._timer = self._task.get_loop().call_soon(self._cancel)
 
     def _cancel(self) -> None:
@@ -178,7 +178,7 @@ class deadline:  # noqa: N801 - it is used as asyncio.timeout is
 
 
 class Deadlines:
-    """The deadlines of one object that run now, so that its end can end them all.
+    """The running deadlines of one object, so that closing it can end them all.
 
     ::
 
@@ -199,7 +199,7 @@ class Deadlines:
         return deadline(seconds, what, self)
 
     def expire(self) -> None:
-        """End every block that runs now, as if its time was over."""
+        """End every running block, as if its time was over."""
         for limit in self._running:
             limit.expire()
 
@@ -217,24 +217,24 @@ class Deadlines:
 
 
 class Mutex:
-    """A lock for the tasks of one event loop: whoever came first gets it first.
+    """A lock for the tasks of one event loop: first come, first served.
 
-    Unlike :class:`asyncio.Lock` it can be taken without waiting, in a plain function, for as
-    much as it costs to look at an attribute. Only tasks that wait need an event loop.
+    Unlike :class:`asyncio.Lock`, a plain function can take it without waiting, for the cost
+    of an attribute access. Only tasks that wait need an event loop.
     """
 
     __slots__ = ("_waiters", "is_held")
 
     def __init__(self) -> None:
         self.is_held = False
-        """Whether somebody has the lock. While it is False nobody waits either, and setting it
-        to True takes the lock, without a call."""
-        # Each is resolved when the lock is its own. While anyone waits the lock is held: it
-        # is handed over, and never free in between.
+        """Whether the lock is held. While it is False nobody waits either, and setting it to
+        True takes the lock without a call."""
+        # Each future is resolved when its task gets the lock. While any task waits the lock
+        # is held: it is handed over, and never free in between.
         self._waiters: deque[asyncio.Future[None]] = deque()
 
     async def acquire(self) -> None:
-        """Take the lock, as soon as all who came before have released it."""
+        """Take the lock, as soon as all who came earlier have released it."""
         if not self.is_held:
             self.is_held = True
             return
@@ -245,14 +245,14 @@ class Mutex:
         except BaseException:
             if future in self._waiters:
                 self._waiters.remove(future)
-            elif not future.cancelled():  # handed over in the moment of the cancellation
+            elif not future.cancelled():  # handed over just as the task was cancelled
                 self.release()
             raise
 
     def release(self) -> None:
-        """Give the lock to whoever has waited longest.
+        """Give the lock to the task that has waited longest.
 
-        Raises :class:`RuntimeError` when nobody has it.
+        Raises :class:`RuntimeError` when the lock is not held.
         """
         if not self.is_held:
             raise RuntimeError("released a mutex that nobody holds")

@@ -1,4 +1,4 @@
-"""Nodes in programs of other kinds: web frameworks, and programs without an event loop.
+"""Nodes in other kinds of programs: web frameworks, and programs without an event loop.
 
-Each module is imported by who wants it, and needs what it is named after.
+Import the module you want; it needs the package that it is named after.
 """

@@ -1,4 +1,4 @@
-"""A node in a web application of aiohttp."""
+"""A node in an aiohttp web application."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def node_ctx(
         app.cleanup_ctx.append(node_ctx("web"))
 
     ``app[key]`` is the node; an application with several nodes has a key for each. The
-    options are those of :class:`~aioros1.Node`. What the node cannot start with keeps the
-    application from starting.
+    options are those of :class:`~aioros1.Node`. If the node fails to start, so does the
+    application.
     """
 
     async def ros(app: web.Application) -> AsyncIterator[None]:

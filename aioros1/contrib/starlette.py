@@ -1,4 +1,4 @@
-"""A node in an application of Starlette, FastAPI, or another with such a lifespan."""
+"""A node in an application of Starlette, FastAPI, or a framework with the same lifespan."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from aioros1 import Node
 __all__ = ["Lifespan", "node_lifespan"]
 
 Lifespan = Callable[[Any], contextlib.AbstractAsyncContextManager[Mapping[str, Any] | None]]
-"""A function of the application that gives an asynchronous context manager around it."""
+"""A function that takes the application and returns an asynchronous context manager."""
 
 
 def node_lifespan(
@@ -23,12 +23,12 @@ def node_lifespan(
 
         app = Starlette(routes=routes, lifespan=node_lifespan("web"))
 
-    ``request.state.node`` and ``app.state.node`` are the node, or whatever ``key`` says in
-    place of ``node``. ``inner`` is the application's own lifespan: it runs while the node
-    is open, finds it in ``app.state``, and what it yields is in ``request.state`` too.
-    Another call of this function may be the ``inner`` one, for a second node. The other
-    options are those of :class:`~aioros1.Node`. Raises :class:`ValueError` when ``inner``
-    yields something under ``key`` itself.
+    ``request.state.node`` and ``app.state.node`` are the node; ``key`` replaces the name
+    ``node``. ``inner`` is the application's own lifespan: it runs while the node is open,
+    finds it in ``app.state``, and what it yields is in ``request.state`` too. For a second
+    node, pass another call of this function as ``inner``. The other options are those of
+    :class:`~aioros1.Node`. Raises :class:`ValueError` when ``inner`` itself yields something
+    under ``key``.
     """
 
     @contextlib.asynccontextmanager

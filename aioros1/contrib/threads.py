@@ -1,4 +1,4 @@
-"""A node for programs without an event loop: it lives in one of its own, in a thread."""
+"""A node for programs without an event loop: it runs in its own loop, in a thread."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 _GRACE = 1.0
-"""Seconds that what still runs has to return once the node is closed, before it is cancelled."""
+"""Seconds after the node is closed until coroutines that still run are cancelled."""
 
 _LOOK = 0.5
-"""Seconds after which a wait in the main thread looks whether there was a Ctrl-C: Python
-misses it just before it begins to wait for a lock, and on Windows while it does."""
+"""Seconds between checks for Ctrl-C while the main thread waits: Python misses it just
+before it begins to wait for a lock, and on Windows while it waits."""
 
 _END: Any = object()
 
 
 class NodeThread:
-    """A node with an event loop and a thread of its own, for programs that block.
+    """A node with its own event loop and thread, for programs that block.
 
     ::
 
@@ -38,17 +38,17 @@ class NodeThread:
             ros.call(pub.publish, data="hello")
 
     The options are those of :class:`~aioros1.Node`; ``loop_factory`` is that of
-    :class:`asyncio.Runner`, as ``uvloop.new_event_loop``.
+    :class:`asyncio.Runner`, for example ``uvloop.new_event_loop``.
 
-    The methods of this class may be called in any thread, at the same time too. The node
-    and its roles belong to their loop: make awaitables of them wherever you like and hand
-    these to :meth:`run` or :meth:`submit`, and use :meth:`call` for their plain functions.
+    You may call the methods of this class in any thread, also at the same time. The node and
+    its roles belong to their loop: create their awaitables wherever you like and pass them
+    to :meth:`run` or :meth:`submit`, and use :meth:`call` for their plain functions.
 
-    When the node is closed, by whomever, iterations end, and who waits or calls gets
-    :class:`~aioros1.ClosedError`. A coroutine that does not end by itself then is
-    cancelled a second later. A program that never closes it does so on its way out. A
-    process that was forked has neither the thread nor the node: there, too, uses raise
-    :class:`~aioros1.ClosedError`, and it makes one of its own.
+    When the node is closed, by whatever means, iterations end, and waits and calls raise
+    :class:`~aioros1.ClosedError`. A coroutine that does not end by itself is cancelled a
+    second later. If you never close the node, it is closed when the program exits. A forked
+    process has neither the thread nor the node: using this object there raises
+    :class:`~aioros1.ClosedError`, so make a new one.
     """
 
     def __init__(
@@ -64,8 +64,8 @@ class NodeThread:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._thread: threading.Thread | None = None
         self._started: Future[None] = Future()
-        # Whether the loop takes more work. Who hands some to it, and who says that it takes
-        # no more, holds the lock: so whatever was taken is also begun, and comes to an end.
+        # Whether the loop takes more work. Both adding work and closing the loop to it hold
+        # the lock, so whatever was accepted is also started and comes to an end.
         self._lock = threading.Lock()
         self._is_open = False
         self._error: BaseException | None = None
@@ -75,13 +75,13 @@ class NodeThread:
     def start(self) -> Self:
         """Start the thread and the node; ``with`` does this.
 
-        Raises what :meth:`Node.start` does, and :class:`RuntimeError` when it was started
-        before.
+        Raises as :meth:`Node.start` does, and :class:`RuntimeError` when it was already
+        started.
         """
         with self._lock:
             if self._thread is not None:
                 raise RuntimeError(f"node {self.node.name} was started before; make a new one")
-            # A daemon, so that a program which forgets it can end; close() is called then.
+            # A daemon, so that a program that forgets to close it can exit and close() runs.
             thread = threading.Thread(
                 target=self._run_loop, name=f"node {self.node.name}", daemon=True
             )
@@ -98,12 +98,12 @@ class NodeThread:
     def close(self, timeout: float | None = None) -> None:
         """Close the node, and return when its thread has ended.
 
-        May be called any number of times, in any thread. ``timeout`` is as for
-        :meth:`Node.close`. Called in the node's own thread it only begins to close.
+        You may call it any number of times, in any thread. ``timeout`` is as for
+        :meth:`Node.close`. In the node's own thread it only starts to close.
         """
         if self._thread is None or self._is_left_behind:
             return
-        self._started.exception()  # waits until it has started, or failed to
+        self._started.exception()  # waits until it has started or failed to
         with self._lock:
             if self._is_open:
                 self._schedule(self.node.close(timeout), None, Future())
@@ -114,7 +114,7 @@ class NodeThread:
 
     @property
     def is_open(self) -> bool:
-        """Whether it can be used."""
+        """Whether the node is open and takes work."""
         return self._is_open and not self._is_left_behind
 
     def __enter__(self) -> Self:
@@ -127,19 +127,20 @@ class NodeThread:
         traceback: TracebackType | None,
     ) -> None:
         self.close()
-        # As `async with node` does: what closed the node is raised where the node is used,
-        # in place of the ClosedError that came of it.
+        # Like `async with node`: raise the error that closed the node in place of the
+        # ClosedError that followed from it.
         if self._error is not None and (exc is None or isinstance(exc, ClosedError)):
             raise self._error
 
     # use
 
     def run(self, awaitable: Awaitable[T], timeout: float | None = None) -> T:
-        """Await something in the node's loop, and return what it gives or raise its error.
+        """Await ``awaitable`` in the node's loop, and return its result or raise its error.
 
-        It is cancelled after ``timeout`` seconds, and :class:`TimeoutError` raised; or when
-        this wait is interrupted, as by Ctrl-C. Raises :class:`~aioros1.ClosedError`, and
-        :class:`RuntimeError` in the node's own thread, which would wait for itself.
+        After ``timeout`` seconds it is cancelled and this raises :class:`TimeoutError`. An
+        interrupt of this wait, such as Ctrl-C, cancels it too. Raises
+        :class:`~aioros1.ClosedError`, and :class:`RuntimeError` in the node's own thread,
+        which would wait for itself.
         """
         return self._wait(awaitable, timeout)
 
@@ -150,26 +151,25 @@ class NodeThread:
     @overload
     def call(self, function: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T: ...
     def call(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Any:
-        """Call a function, or a coroutine function, in the node's thread; what it returns.
+        """Call a function or coroutine function in the node's thread; returns its result.
 
         Raises as :meth:`run` does.
         """
         return self._wait(_call(function, args, kwargs))
 
     def submit(self, awaitable: Awaitable[T]) -> Future[T]:
-        """Await something in the node's loop without waiting for it here.
+        """Await ``awaitable`` in the node's loop without waiting for it here.
 
-        The future may be cancelled, and then what is awaited is. Raises
-        :class:`~aioros1.ClosedError`.
+        Cancelling the future cancels the awaitable. Raises :class:`~aioros1.ClosedError`.
         """
         future: Future[T] = Future()
         self._submit(awaitable, None, future)
         return future
 
     def iterate(self, source: AsyncIterable[T]) -> Iterator[T]:
-        """Iterate here over what is iterated asynchronously there: a subscriber, a rate.
+        """Iterate in this thread over a subscriber, a rate or another asynchronous iterable.
 
-        Ends when ``source`` does, or the node.
+        Ends with ``source`` or with the node.
         """
         try:
             iterator: AsyncIterator[T] = self.call(aiter, source)
@@ -180,13 +180,13 @@ class NodeThread:
                 raise
 
     def deliver(self, source: AsyncIterable[T], function: Callable[[T], object]) -> Future[None]:
-        """Call ``function`` with everything that comes from ``source``, in the node's thread.
+        """Call ``function`` with every item of ``source``, in the node's thread.
 
-        It has to return soon, as the node waits for it: good are ``put`` of a
-        :class:`queue.SimpleQueue`, ``append`` of a :class:`collections.deque`, or what a
-        GUI toolkit has for handing work to its own thread. What becomes of an exception is
-        the node's ``on_error``. The future ends with ``source``; cancel it to stop earlier.
-        Raises :class:`~aioros1.ClosedError`.
+        The function has to return soon, because the node waits for it. Good choices are
+        ``put`` of a :class:`queue.SimpleQueue`, ``append`` of a :class:`collections.deque`,
+        or a GUI toolkit's way to hand work to its own thread. The node's ``on_error`` handles
+        exceptions. The future ends with ``source``; cancel it to stop earlier. Raises
+        :class:`~aioros1.ClosedError`.
         """
         return self.submit(self._deliver(source, function))
 
@@ -200,7 +200,7 @@ class NodeThread:
 
     @property
     def _is_left_behind(self) -> bool:
-        """Whether this process was forked off the one that has the thread."""
+        """Whether this process was forked from the one that has the thread."""
         return self._is_open and self._thread is not None and not self._thread.is_alive()
 
     def _closed_error(self) -> ClosedError:
@@ -219,7 +219,7 @@ class NodeThread:
             raise RuntimeError(
                 f"the thread of node {self.node.name} would wait for itself; use await there"
             )
-        # Made here, so that an interrupt at whatever place below finds it.
+        # Made here, so that an interrupt anywhere below finds it.
         future: Future[T] = Future()
         try:
             self._submit(awaitable, timeout, future)
@@ -231,7 +231,7 @@ class NodeThread:
     def _submit(self, awaitable: Awaitable[T], timeout: float | None, future: Future[T]) -> None:
         if not isinstance(awaitable, Awaitable):
             raise TypeError(f"expected an awaitable, got {awaitable!r}; call() is for functions")
-        if not self._is_left_behind:  # where nobody would release the lock
+        if not self._is_left_behind:  # in a forked process nobody would release the lock
             with self._lock:
                 if self._is_open:
                     self._schedule(awaitable, timeout, future)
@@ -267,9 +267,9 @@ class NodeThread:
             await self._finish()
 
     async def _finish(self) -> None:
-        """Let end what was submitted; nobody may wait for ever."""
-        await asyncio.sleep(0)  # what was submitted last becomes a task ...
-        await asyncio.sleep(0)  # ... and has begun
+        """Let submitted coroutines end, so that nobody waits for ever."""
+        await asyncio.sleep(0)  # the coroutine submitted last becomes a task ...
+        await asyncio.sleep(0)  # ... and begins
         tasks = asyncio.all_tasks() - {asyncio.current_task()}
         if tasks:
             _, late = await asyncio.wait(tasks, timeout=_GRACE)
@@ -292,7 +292,7 @@ class NodeThread:
     async def _serve(
         self, awaitable: Awaitable[T], timeout: float | None, future: Future[T]
     ) -> None:
-        """Await it, and give ``future`` what comes of it."""
+        """Await ``awaitable``, and set its result or error in ``future``."""
         result: Any = None
         error: BaseException | None = None
         limit = asyncio.timeout(timeout)
@@ -303,12 +303,12 @@ class NodeThread:
             if self._is_open:
                 future.cancel()
             else:
-                error = self._closed_error()  # nobody asked for that cancellation
+                error = self._closed_error()  # the user did not cancel it
         except TimeoutError as caught:
             error = caught
             if limit.expired():
                 error = TimeoutError(f"{_name(awaitable)} did not end within {timeout:g} s")
-        except BaseException as caught:  # SystemExit too is for who waits, not for the loop
+        except BaseException as caught:  # SystemExit too is for the caller, not the loop
             error = caught
         if not future.set_running_or_notify_cancel():
             return
@@ -343,7 +343,7 @@ async def _next(iterator: AsyncIterator[T]) -> T:
 
 
 def _discard(awaitable: Awaitable[Any]) -> None:
-    """Python warns of coroutines that are never awaited, and this one will not be."""
+    """Close a coroutine that will not be awaited, because Python warns about those."""
     close = getattr(awaitable.__await__(), "close", None)
     if close is not None:
         close()

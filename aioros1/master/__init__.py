@@ -11,7 +11,7 @@ __all__ = ["Master"]
 
 
 def __getattr__(name: str) -> Any:
-    # The pure modules of this package are used without the server, which needs aiohttp.
+    # The pure modules of this package work without the server, which needs aiohttp.
     if name == "Master":
         from aioros1.master.server import Master
 

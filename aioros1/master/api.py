@@ -1,8 +1,8 @@
-"""The Master and Parameter Server API: requests checked, answered, and passed on.
+"""The Master and Parameter Server API: checks requests, answers them and passes them on.
 
-What is refused, in which order, and with which words and values, is what rosmaster does:
-the tools of ROS 1 print the words, and some programs compare the codes. -1 is a mistake of
-the caller, 0 a failure, 1 success.
+It refuses the same requests as rosmaster, in the same order and with the same texts and
+values: the tools of ROS 1 print the texts, and some programs compare the codes. -1 means a
+mistake of the caller, 0 a failure, 1 success.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ _Check = Callable[[str, Any, str], Any]
 
 
 class _RefusedError(Exception):
-    """A parameter of a request is not what it should be."""
+    """A parameter of a request is invalid."""
 
 
 class MasterApi:
     """Answers requests from a :class:`.Registry` and a :class:`.ParameterTree`.
 
-    ``notify`` takes the messages that others must be sent; ``shutdown`` takes the reason
-    of a request to shut down, and the answer to it, and returns what to answer.
+    ``notify`` takes the notifications for other nodes. ``shutdown`` takes the reason of a
+    request to shut down and the answer to it, and returns what to answer.
     """
 
     def __init__(
@@ -45,10 +45,10 @@ class MasterApi:
         self._notify = notify
         self._on_shutdown = shutdown
         self.uri = ""
-        """What getUri answers."""
+        """The answer of getUri."""
 
     def methods(self) -> dict[str, Callable[..., Any]]:
-        """Every method by its name, as :class:`.XmlRpcServer` wants them."""
+        """Every method by its name, for :class:`.XmlRpcServer`."""
         registry, notify = self._registry, self._notify
         topic, service = ("topic", _topic), ("service", _topic)
         key, api = ("key", _key), ("caller_api", _api)
@@ -168,9 +168,9 @@ class MasterApi:
 def _checked(
     method: Callable[..., Any], failure: Any, *checks: tuple[str, _Check]
 ) -> Callable[..., Any]:
-    """``method`` behind the checks of its parameters, the caller's name coming first.
+    """Wrap ``method`` in checks of its parameters, the first of which is the caller's name.
 
-    ``failure`` is the value of the answers that refuse a request.
+    ``failure`` is the value in answers that refuse a request.
     """
 
     def call(*params: Any) -> Any:
@@ -244,8 +244,8 @@ def _key(name: str, value: Any, caller_id: str) -> str:
 def _value(name: str, value: Any, caller_id: str) -> Any:
     if value is None:
         raise _RefusedError(name, "must be specified")
-    # rosmaster accepts a nil further inside, and can then never answer for the parameter,
-    # its namespaces and "/" again.
+    # rosmaster accepts a nested nil, and then can never again answer for the parameter, its
+    # namespaces and "/".
     if holds_nil(value):
         raise _RefusedError(name, "holds a nil, which no parameter can be")
     return value

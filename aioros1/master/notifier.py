@@ -1,10 +1,9 @@
-"""Tells nodes what has changed, each in its own time.
+"""Tells nodes what has changed, each at its own pace.
 
-A node that hangs or is gone must never delay the news of the others: with three such nodes
-rosmaster, which has three threads for this, goes silent for the whole graph. Here every
-node has a queue and, while there is something in it, a task. Only the newest of several
-messages about one thing is kept, so that a queue stays short and an old list of publishers
-can never overtake a newer one.
+A node that hangs or is gone must never delay notifications to others: with three such nodes
+rosmaster, which has three threads for this, goes silent for the whole graph. Here every node
+has a queue and, while the queue is not empty, a task. A queue keeps only the newest message
+about each thing, so it stays short and an old list of publishers never overtakes a newer one.
 """
 
 from __future__ import annotations
@@ -25,25 +24,25 @@ __all__ = ["Notifier"]
 _LOG = logging.getLogger("aioros1.master")
 _CALLER_ID = "/master"
 
-# Parameters a follower of "/" can be behind with; topics are bounded by themselves.
+# Parameter updates that may be queued for a follower of "/"; topics bound themselves.
 _MAX_PENDING = 10_000
 
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, 30.0
 
-# Nodes that are begun to be told in one turn of the loop. A topic may have hundreds of
-# subscribers; told all at once, they would keep everybody waiting who asks meanwhile.
+# Nodes to start notifying in one iteration of the event loop. A topic may have hundreds of
+# subscribers; notifying all at once would hold up the requests that come meanwhile.
 _PER_TURN = 2
 
 _Slot = tuple[type, str, str]
-"""What a message is about: its kind, the topic or key, and the node for parameters."""
+"""The subject of a message: its kind, the topic or key, and the node for parameters."""
 
 
 class Notifier:
     """Sends notifications to nodes through ``client``.
 
-    ``is_registered(api)`` says whether it is worth while to try again at an URI that did
-    not answer in time; ``on_unwanted(update)`` is called when a node says that it does not
-    follow a parameter. Both are plain functions.
+    ``is_registered(api)`` tells whether to try again at a URI that did not answer in time.
+    ``on_unwanted(update)`` is called when a node answers that it does not follow a
+    parameter. Both are plain functions.
     """
 
     def __init__(
@@ -58,7 +57,7 @@ class Notifier:
         self._on_unwanted = on_unwanted
         self._queues: dict[str, dict[_Slot, Notification]] = {}
         self._tasks: dict[str, asyncio.Task[None]] = {}
-        self._waiting: deque[str] = deque()  # those that have a queue, and no task yet
+        self._waiting: deque[str] = deque()  # nodes with a queue but no task yet
         self._starter: asyncio.Task[None] | None = None
         self._closed = False
 
@@ -73,8 +72,8 @@ class Notifier:
                 queue = self._queues[api] = {}
                 self._waiting.append(api)
             slot = _slot(message)
-            # To the end, not to the old place: what is queued between the two about a
-            # namespace below or above would otherwise have the last word.
+            # To the end, not to the old place: otherwise an update of a namespace above or
+            # below that was queued in between would have the last word.
             queue.pop(slot, None)
             queue[slot] = message
             if len(queue) > _MAX_PENDING:
@@ -84,7 +83,7 @@ class Notifier:
             self._starter = asyncio.create_task(self._start(), name="aioros1-master-notify")
 
     async def close(self) -> None:
-        """Drop what is queued and what is being sent."""
+        """Drop all messages that are queued or being sent."""
         self._closed = True
         tasks = list(self._tasks.values())
         if self._starter is not None:
@@ -95,7 +94,7 @@ class Notifier:
         self._queues.clear()
 
     async def _start(self) -> None:
-        """Give a task to every node that waits for one, a few at a time."""
+        """Start a task for every node that waits for one, a few at a time."""
         try:
             while self._waiting:
                 for _ in range(min(_PER_TURN, len(self._waiting))):
@@ -121,8 +120,8 @@ class Notifier:
                     _LOG.warning("%s", error)
                     if not self._is_registered(api):
                         continue
-                    # It may still read this, and after what we send next. So this, or what
-                    # has taken its place, is sent again until it answers.
+                    # The node may still read this, even after what we send next. So send
+                    # this, or what has replaced it, again until the node answers.
                     if slot not in queue:
                         rest = dict(queue)
                         queue.clear()

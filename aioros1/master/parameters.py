@@ -1,8 +1,8 @@
-"""The tree of parameters, and who is to be told of a change. Pure: no I/O, no loop.
+"""The tree of parameters, and which nodes to tell of a change. Pure: no I/O, no event loop.
 
 Keys are resolved names. A dict is a namespace, anything else a parameter; an empty dict
-is a namespace without parameters. The tree is never changed in place: what was read from
-it stays as it was, so that answers and notifications need no copies.
+is a namespace without parameters. The tree is never changed in place: values read from it
+stay as they were, so answers and notifications need no copies.
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ __all__ = ["ParamUpdate", "ParameterTree", "holds_nil", "param_updates", "subscr
 
 
 class ParamUpdate(NamedTuple):
-    """The node ``caller_id`` at ``api`` is to be told that a parameter has changed."""
+    """A notification to the node ``caller_id`` at ``api`` that a parameter has changed."""
 
     api: str
     caller_id: str
     key: str
-    """What has changed, with a slash at the end, as every master sends it."""
+    """The changed key, with a slash at the end, as every master sends it."""
     value: Any
-    """The new value; an empty dict says that there is none."""
+    """The new value; an empty dict means that there is none."""
 
 
 class ParameterTree:
     """All the parameters of a master.
 
-    ``max_depth`` bounds namespaces, arrays and structs inside one another: the whole
-    tree has to fit an answer that peers can read.
+    ``max_depth`` bounds how deep namespaces, arrays and structs are nested: the whole tree
+    has to fit an answer that peers can read.
     """
 
     def __init__(self, *, max_depth: int = MAX_DEPTH - 1) -> None:
@@ -58,9 +58,9 @@ class ParameterTree:
     def set(self, key: str, value: Any) -> None:
         """Replace whatever is at ``key``; a dict becomes a namespace.
 
-        A plain value on the way to ``key`` gives way to a namespace. Raises
-        :class:`TypeError` for a root that is no dict, :class:`ValueError` for a tree that
-        would get too deep.
+        A namespace replaces a plain value on the path to ``key``. Raises :class:`TypeError`
+        for a root that is not a dict, and :class:`ValueError` for a tree that would get too
+        deep.
         """
         parts = _parts(key)
         if not parts and not isinstance(value, dict):
@@ -72,9 +72,9 @@ class ParameterTree:
         self._root = value
 
     def delete(self, key: str) -> None:
-        """Remove ``key`` and all below it. Raises :class:`KeyError`, for the root as well.
+        """Remove ``key`` and everything below it. Raises :class:`KeyError`, also for the root.
 
-        The namespace it was in stays, be it empty now.
+        The namespace that it was in stays, even if it is now empty.
         """
         parts = _parts(key)
         if not parts or not self.has(key):
@@ -89,9 +89,9 @@ class ParameterTree:
         """The name under which the node ``caller_id`` finds ``key``, or ``None``.
 
         The search starts in the node's private namespace and goes up. Only the first part
-        of ``key`` has to be there: who finds ``/ns/arm`` is told ``/ns/arm/speed``, be it
-        set or not. Raises :class:`ValueError` for a private key and for a ``caller_id``
-        that is not global.
+        of ``key`` has to exist: if ``/ns/arm`` does, a search for ``arm/speed`` returns
+        ``/ns/arm/speed``, set or not. Raises :class:`ValueError` for a private key and for a
+        ``caller_id`` that is not global.
         """
         if not key or is_private(key):
             raise ValueError("invalid key")
@@ -132,12 +132,12 @@ def param_updates(
     *,
     setter: str | None = None,
 ) -> list[ParamUpdate]:
-    """Whom to tell what, after ``value`` was set at ``key``; an empty dict: deleted.
+    """The notifications after ``value`` was set at ``key``; an empty dict means deleted.
 
     ``subscribers`` holds, for each :func:`subscription_key`, the nodes and their URIs.
-    Followers of ``key`` or of a namespace it is in are told of ``key`` itself, save the
-    node that has set it (``setter``); followers of something below are told of their own
-    part, and that it is gone if it is not in ``value``.
+    Followers of ``key`` or of a namespace above are told of ``key`` itself, except the node
+    that has set it (``setter``). Followers of a key below are told of their own part, or
+    that it is gone if ``value`` does not have it.
     """
     if not subscribers:
         return []
@@ -159,14 +159,14 @@ def param_updates(
 
 
 def subscription_key(key: str) -> str:
-    """``key`` with exactly one slash at the end: ``/a`` cannot be taken for part of ``/ab``."""
+    """``key`` with exactly one slash at the end, so that ``/a`` is no prefix of ``/ab``."""
     return "/".join(["", *_parts(key), ""])
 
 
 def holds_nil(value: Any) -> bool:
-    """Whether ``value`` is a nil or has one inside it.
+    """Whether ``value`` is a nil or contains one.
 
-    Servers that store one can never again answer for it or for any namespace above.
+    A server that stores a nil can never again answer for it or for any namespace above.
     """
     pending = [value]
     while pending:
@@ -185,7 +185,7 @@ def _parts(key: str) -> list[str]:
 
 
 def _depth(value: Any) -> int:
-    """How many dicts and lists are inside one another."""
+    """How deep dicts and lists are nested."""
     depth = 0
     level = [value]
     while level := [item for item in level if isinstance(item, dict | list)]:

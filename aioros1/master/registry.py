@@ -1,8 +1,8 @@
-"""Who publishes, subscribes to and provides what. Pure: no I/O, no loop.
+"""Registrations of publishers, subscribers and providers. Pure: no I/O, no event loop.
 
-Every change returns the answer for the node that asked, and the notifications that other
-nodes must be sent because of it. Nothing is removed but on request: a master cannot tell a
-dead node from a slow one.
+Every change returns the answer for the node that asked, and the notifications to send to
+other nodes. Registrations are removed only on request: a master cannot tell a dead node from
+a slow one.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from aioros1.master.parameters import ParamUpdate
 __all__ = ["Answer", "Changed", "Notification", "PublisherUpdate", "Registry", "Shutdown"]
 
 Answer = tuple[int, str, Any]
-"""Code, status and value, as every method of the master API answers."""
+"""Code, status and value: the answer of every method of the master API."""
 
 ANY_TYPE = "*"
 
 
 class PublisherUpdate(NamedTuple):
-    """The node at ``api`` subscribes to ``topic``; these are its publishers now."""
+    """A notification to the subscriber of ``topic`` at ``api``: the topic's publishers now."""
 
     api: str
     topic: str
@@ -30,7 +30,7 @@ class PublisherUpdate(NamedTuple):
 
 
 class Shutdown(NamedTuple):
-    """The node ``caller_id`` at ``api`` has been replaced by another of its name."""
+    """A notification to the node ``caller_id`` at ``api``: another of its name replaced it."""
 
     api: str
     caller_id: str
@@ -44,7 +44,7 @@ Changed = tuple[Answer, list[Notification]]
 
 @dataclass(slots=True)
 class _Node:
-    """One node: where its slave API is, and the keys of what it has registered."""
+    """One node: the URI of its slave API, and the keys of its registrations."""
 
     api: str
     publications: set[str] = field(default_factory=set)
@@ -73,14 +73,14 @@ class Registry:
         self._param_subscribers: dict[str, dict[str, str]] = {}
         self._services: dict[str, _Service] = {}
         self._types: dict[str, str] = {}
-        # How many nodes are at an URI; a process may hold several.
+        # How many nodes share a URI; a process may hold several.
         self._apis: dict[str, int] = {}
 
     # ------------------------------------------------------------------ topics
 
     def register_publisher(self, caller_id: str, topic: str, topic_type: str, api: str) -> Changed:
-        """The value is the URIs of the subscribers, which are told of the new publisher,
-        be it for the second time."""
+        """The value is the URIs of the subscribers, which are told of the publisher even if
+        it was registered before."""
         node, notifications = self._node(caller_id, api)
         node.publications.add(topic)
         self._publishers.setdefault(topic, {})[caller_id] = api
@@ -115,7 +115,7 @@ class Registry:
     # ------------------------------------------------------------------ services
 
     def register_service(self, caller_id: str, service: str, service_api: str, api: str) -> Changed:
-        """The last provider of a service is the one that clients are told of."""
+        """Register a provider; callers get the provider that was registered last."""
         node, notifications = self._node(caller_id, api)
         node.services.add(service)
         self._services[service] = _Service(caller_id, service_api)
@@ -124,7 +124,7 @@ class Registry:
     def unregister_service(self, caller_id: str, service: str, service_api: str) -> Changed:
         """The value is how many registrations this has ended, 0 or 1.
 
-        A provider that another has taken the place of ends nothing.
+        A provider that another has replaced ends nothing.
         """
         node = self._nodes.get(caller_id)
         if node is None:
@@ -150,11 +150,11 @@ class Registry:
 
     @property
     def param_subscribers(self) -> Mapping[str, Mapping[str, str]]:
-        """Who follows which parameters, as :func:`.param_updates` wants it."""
+        """The subscribers of each parameter, for :func:`.param_updates`."""
         return self._param_subscribers
 
     def register_param_subscriber(self, caller_id: str, key: str, api: str) -> list[Notification]:
-        """``key`` is a :func:`.subscription_key`."""
+        """Register a subscription to ``key``, which is a :func:`.subscription_key`."""
         node, notifications = self._node(caller_id, api)
         node.params.add(key)
         self._param_subscribers.setdefault(key, {})[caller_id] = api
@@ -184,7 +184,7 @@ class Registry:
         return 1, "current topics", topics
 
     def topic_types(self) -> Answer:
-        """Every topic there ever was, each with its type."""
+        """Every topic that ever existed, each with its type."""
         return 1, "current system state", [list(pair) for pair in self._types.items()]
 
     def system_state(self) -> Answer:
@@ -200,7 +200,7 @@ class Registry:
         )
 
     def knows_api(self, api: str) -> bool:
-        """Whether any registered node is at that URI."""
+        """Whether any registered node is at the URI ``api``."""
         return api in self._apis
 
     # ------------------------------------------------------------------ inside
@@ -208,8 +208,8 @@ class Registry:
     def _node(self, caller_id: str, api: str) -> tuple[_Node, list[Notification]]:
         """The entry of a node that registers something from ``api``.
 
-        A node of that name at another URI is taken to be an old one, which is told to end
-        and loses everything it had.
+        A node of the same name at another URI counts as an old one: it is told to end and
+        loses all its registrations.
         """
         node = self._nodes.get(caller_id)
         notifications: list[Notification] = []
@@ -224,7 +224,7 @@ class Registry:
         return node, notifications
 
     def _forget(self, caller_id: str, node: _Node) -> list[Notification]:
-        """End every registration of a node; its subscribers are told."""
+        """End every registration of a node, and notify the subscribers of its topics."""
         for topic in node.subscriptions:
             _discard(self._subscribers, topic, caller_id)
         for key in node.params:
@@ -266,7 +266,7 @@ class Registry:
 
     def _publisher_updates(self, topic: str) -> list[Notification]:
         publishers = self._publisher_apis(topic)
-        # Two nodes of one process share an URI, and need one notification.
+        # Two nodes of one process share a URI, and need only one notification.
         apis = dict.fromkeys(self._subscribers.get(topic, {}).values())
         return [PublisherUpdate(api, topic, publishers) for api in apis]
 

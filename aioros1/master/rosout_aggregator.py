@@ -1,7 +1,7 @@
-"""The node ``/rosout``: what every node logs on ``/rosout``, together on ``/rosout_agg``.
+"""The node ``/rosout``: it relays what every node logs on ``/rosout`` to ``/rosout_agg``.
 
-Log viewers follow ``/rosout_agg``, so that they need one connection and not one to
-every node. roscore starts a program for this; here it is a node in the master's loop.
+Log viewers subscribe to ``/rosout_agg``, so they need one connection instead of one to every
+node. roscore starts a program for this; here it is a node in the master's event loop.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ class RosoutAggregator:
         )
 
     async def start(self) -> None:
-        """Return when the topics are registered and the relay runs."""
+        """Start the relay; returns when the topics are registered."""
         await self._node.start()
         publisher = await self._node.advertise("/rosout_agg", "rosgraph_msgs/Log", queue_size=1000)
-        # Where they arrive: what one read of a connection brings may be more than any queue.
+        # A plain callback, without a queue: one read may bring more messages than fit in any.
         await self._node.subscribe("/rosout", "rosgraph_msgs/Log", publisher.publish_raw, raw=True)
 
     async def close(self) -> None:

@@ -1,4 +1,4 @@
-"""The master as an object: sockets, life and death."""
+"""The master itself: its sockets, start and end."""
 
 from __future__ import annotations
 
@@ -41,18 +41,18 @@ DEFAULT_PORT = 11311
 
 _LOG = logging.getLogger("aioros1.master")
 
-# What roscore sets, and roslaunch and roswtf look for; the values are the output of
-# commands there, hence the line ends. The version is that of the master we answer like.
+# roscore sets these, and roslaunch and roswtf read them. There the values are the output of
+# commands, hence the newlines. The version is that of the master whose answers we follow.
 _ROSCORE_PARAMS = {"/rosdistro": "noetic\n", "/rosversion": "1.15.15\n"}
 
 
 @public
 @dataclass(frozen=True, slots=True)
 class MasterStats:
-    """What the port of a master has counted."""
+    """Counters of a master's port."""
 
     connections: int
-    """Connections that are open."""
+    """Open connections."""
     connections_refused: int
     """Connections closed at once because there were too many: ``xmlrpc_connections`` and
     ``connections_per_host`` of ``limits``."""
@@ -71,27 +71,27 @@ class Master:
         async with Master(port=0) as master:
             print(master.uri)
 
-    ``host`` is what the master tells others to reach it by, and decides where it listens:
-    with ``"localhost"`` or a numeric loopback address only there, else on every interface
-    (IPv6 as well if it is a numeric IPv6 address). By default it is ``ROS_HOSTNAME``, then
-    ``ROS_IP``, then ``bind``, then this machine's address on the default route, then
-    ``localhost``. ``bind`` is a numeric address to listen on, if that is to be another one.
+    ``host`` is the address that the master announces, and decides where it listens: only
+    there for ``"localhost"`` or a numeric loopback address, else on every interface (IPv6 as
+    well if it is a numeric IPv6 address). The default is ``ROS_HOSTNAME``, then ``ROS_IP``,
+    then ``bind``, then this machine's address on the default route, then ``localhost``.
+    ``bind`` is a numeric address to listen on instead.
 
-    ``allow`` names the networks from which connections are taken (``["127.0.0.0/8",
-    "10.0.0.5"]``), of all others none. All nodes have to be in one of them, and so has
-    this machine, since the node ``/rosout`` is a node like others. There is no other access
-    control in ROS 1: on a network that is not trusted, use ``"localhost"``.
+    ``allow`` lists the only networks from which the master accepts connections
+    (``["127.0.0.0/8", "10.0.0.5"]``). All nodes have to be in one of them, and so does this
+    machine, because ``/rosout`` is a node like any other. ROS 1 has no other access control:
+    on an untrusted network, use ``"localhost"``.
 
-    ``port`` 0 takes a free one. ``params`` are parameters to begin with, beside ``/run_id``,
+    ``port`` 0 takes a free one. ``params`` are initial parameters, in addition to ``/run_id``,
     ``/rosdistro`` and ``/rosversion``, which are set as roscore does; values that no
     parameter can have raise as :func:`.encode_call` says.
 
     ``rosout`` adds the node ``/rosout``, which relays what all nodes log to
     ``/rosout_agg``, as roscore does.
 
-    A request to shut down, which anybody may send, is answered and then obeyed.
+    The master answers a request to shut down, which anybody may send, and then obeys it.
 
-    Raises :class:`ValueError` for networks in ``allow`` that are none.
+    Raises :class:`ValueError` for invalid networks in ``allow``.
     """
 
     def __init__(
@@ -115,11 +115,11 @@ class Master:
         self._uri = ""
         self._run_id = _new_run_id()
         self._registry = Registry()
-        # One level of an answer is the triple around the value.
+        # The triple around the value takes one level of an answer.
         self._parameters = ParameterTree(max_depth=limits.xmlrpc_depth - 1)
         given = {"/run_id": self._run_id, **_ROSCORE_PARAMS, **(params or {})}
         for key, value in given.items():
-            # There and back: checked, copied, and of the types a node would have sent.
+            # Encode and decode: this checks and copies it, with the types a node would send.
             document = encode_response(value, what=f"parameter {key}")
             value = decode_response(document, max_values=limits.xmlrpc_values)
             self._parameters.set(resolve_from(key, "/"), value)
@@ -136,28 +136,28 @@ class Master:
             shutdown=self._answer_shutdown,
         )
         self._server = XmlRpcServer(self._api.methods(), limits=limits, allow=self._allow, log=_LOG)
-        # What ends with the master, in reverse order; whatever else is to live as long as
-        # it does, such as the aggregator of /rosout, is put on top in start().
+        # Everything that ends with the master, in reverse order. start() adds the rest, such
+        # as the aggregator of /rosout, on top.
         self._stack = contextlib.AsyncExitStack()
         self._started = False
-        self._loop_state: LoopState | None = None  # of the loop that it is started in
+        self._loop_state: LoopState | None = None  # of the loop in which it was started
         self._closing: asyncio.Task[None] | None = None
         self._reason = ""
         self._closed = asyncio.Event()
 
     @property
     def uri(self) -> str:
-        """What to set ``ROS_MASTER_URI`` to; empty before the start."""
+        """The value for ``ROS_MASTER_URI``; empty before the start."""
         return self._uri
 
     @property
     def port(self) -> int:
-        """The TCP port; before the start, the one asked for."""
+        """The TCP port; before the start, the requested one."""
         return self._server.port or self._port
 
     @property
     def run_id(self) -> str:
-        """The value of ``/run_id`` at the start: what tells one run of a master from
+        """The value of ``/run_id`` at the start, which tells one run of a master from
         another."""
         return self._run_id
 
@@ -168,16 +168,16 @@ class Master:
 
     @property
     def stats(self) -> MasterStats:
-        """Who was let in since the start, and who was not."""
+        """Counters of accepted and refused connections since the start."""
         door = self._server.admission
         return MasterStats(door.open, door.refused, door.forbidden, self._server.delayed)
 
     async def start(self) -> None:
-        """Begin to serve.
+        """Start to serve.
 
-        Raises :class:`OSError` when the address or the port is not to be had, and
-        :class:`ValueError` when ``bind`` is no address, or ``allow`` leaves out this machine
-        while the node ``/rosout`` is wanted.
+        Raises :class:`OSError` when the address or the port is not available, and
+        :class:`ValueError` when ``bind`` is not an address, or when ``allow`` excludes this
+        machine although ``rosout`` is set.
         """
         if self._started:
             raise RuntimeError("a master is started once")
@@ -191,12 +191,12 @@ class Master:
 
     async def _start(self) -> None:
         host, bind = self._host, self._bind
-        if host is not None and is_wildcard(host):  # where to listen, and nothing to tell others
+        if host is not None and is_wildcard(host):  # an address to listen on, not to announce
             host, bind = None, bind or host
         told = bind if bind and not is_wildcard(bind) else None
         host = host or advertised_host(bound=told)
-        # A network without a gateway, of a robot perhaps, has nothing to tell. Those who know
-        # the way to this machine find the master all the same, and need not be told.
+        # A network without a gateway, perhaps on a robot, gives no address to announce. Nodes
+        # that know how to reach this machine find the master all the same.
         advertised = host or "localhost"
         bind = bind or (bind_address_for(host) if host else every_interface(advertised))
         if self._rosout:
@@ -207,7 +207,7 @@ class Master:
         await self._server.start(bind, self._port)
         self._uri = self._api.uri = f"http://{uri_host(advertised)}:{self._server.port}/"
         if self._rosout:
-            # Imported here: it is a node, and those who only want a master have none.
+            # Imported here because it is a node, which a master alone does not need.
             from aioros1.master.rosout_aggregator import RosoutAggregator
 
             aggregator = RosoutAggregator(
@@ -221,14 +221,14 @@ class Master:
         _LOG.info("master at %s, run id %s", self._uri, self._run_id)
 
     async def _check_that_rosout_is_allowed(self, host: str) -> None:
-        """It is at ``host``, as the master is, and each of them calls the other."""
+        """Raise if ``allow`` excludes the node ``/rosout``, which is at ``host`` as well."""
         if self._allow.networks is None:
             return
         try:
             _, address = (await resolve(host))[0]
             own = parse_address(local_address_facing(address))
         except OSError:
-            return  # the start itself will say so
+            return  # the start itself will report it
         if own not in self._allow:
             raise ValueError(
                 f"allow: the node /rosout of this master connects from {own}, "
@@ -238,17 +238,17 @@ class Master:
 
     async def close(self) -> None:
         """Stop serving and free everything; idempotent. The nodes are not told: they
-        outlive their master, and register again with the next.
+        outlive their master, and register again with the next one.
 
-        Raises :class:`RuntimeError` in another thread or event loop than the master's.
+        Raises :class:`RuntimeError` in a thread or event loop other than the master's.
         """
         if self._loop_state is not None:
             self._loop_state.check_thread("Master.close()")
         await asyncio.shield(self._begin_to_close("closed"))
 
     async def wait_closed(self) -> str:
-        """Wait until the master has ended, be it by :meth:`close` or by a request from
-        outside; returns the reason."""
+        """Wait until the master has ended, by :meth:`close` or by a request from outside;
+        returns the reason."""
         await self._closed.wait()
         return self._reason
 
@@ -278,8 +278,8 @@ class Master:
         return Reply(answer, after=lambda: self._begin_to_close(reason))
 
     def _begin_to_close(self, reason: str) -> asyncio.Task[None]:
-        # A task of its own: a request to shut down must not wait for its own end, and
-        # whoever closes may be cancelled meanwhile.
+        # A task of its own: a request to shut down must not wait for its own end, and the
+        # caller of close() may be cancelled meanwhile.
         if self._closing is None:
             self._reason = reason
             self._closing = asyncio.create_task(self._close(), name="aioros1-master-close")
@@ -293,16 +293,16 @@ class Master:
             self._closed.set()
 
     def _unwanted(self, update: ParamUpdate) -> None:
-        """A node does not know the parameter it was told of.
+        """End the subscription of a node that does not know the parameter it was told of.
 
-        Only a subscription to that very key is ended: a rospy node answers so as well for
-        a new key below one that it does follow.
+        This ends only a subscription to exactly that key: a rospy node gives the same answer
+        for a new key below one that it follows.
         """
         self._registry.unregister_param_subscriber(update.caller_id, update.key, update.api)
 
 
 def _new_run_id() -> str:
-    # A time-based UUID, as roslaunch makes them, but of random bits where those have the
-    # hardware address of the machine, which is nobody's business and slow to find out.
+    # A time-based UUID, as roslaunch makes them, but with random bits in place of the
+    # machine's hardware address, which is private and slow to find out.
     node = random.getrandbits(48) | 1 << 40
     return str(uuid.uuid1(node=node, clock_seq=random.getrandbits(14)))

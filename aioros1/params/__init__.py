@@ -1,1 +1,1 @@
-"""Parameters: asked for, changed and followed."""
+"""Parameters: reading, changing and following them."""

@@ -1,4 +1,4 @@
-"""A parameter that a node follows, as the master sees it."""
+"""A parameter that a node follows, as registered at the master."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["FollowedParam"]
 
 
 class Following(Protocol):
-    """A subscriber of a parameter, as that sees it."""
+    """What a followed parameter needs of a subscriber."""
 
     def _put(self, update: ParamUpdate) -> None:
         """Hand over an update."""
@@ -25,9 +25,9 @@ class Following(Protocol):
 class FollowedParam(Shared[Following]):
     """A parameter that a node follows, for all its subscribers.
 
-    The master announces the key that was set, which may be the followed one, one below
-    it, or, where the parameter was set through one above, the followed one with its
-    part. ``{}`` stands for a parameter that is not set.
+    The master announces the key that was set, which may be the followed key or one below
+    it. When a key above was set, the master announces the followed key with its part of the
+    value. ``{}`` stands for a parameter that is not set.
     """
 
     kind = "parameter"
@@ -35,29 +35,29 @@ class FollowedParam(Shared[Following]):
     def __init__(self, context: Context, key: str, table: dict[str, FollowedParam]) -> None:
         super().__init__(context, key, table)
         self.value: Any = {}
-        """What it is set to now, with all below it."""
+        """The value now, with everything below it."""
         self._updates = 0
 
     def concerns(self, key: str) -> bool:
-        """Whether setting ``key`` changes this parameter: it is it, above it or below it."""
+        """Whether setting ``key``, the followed key or one above or below, changes this."""
         return key == self.name or is_below(key, self.name) or is_below(self.name, key)
 
     def update(self, key: str, value: Any) -> None:
-        """``key`` was set to ``value``; it is the followed one, one below or one above it."""
+        """Apply that ``key``, the followed key or one above or below, was set to ``value``."""
         self._updates += 1
         if self.name != key and is_below(self.name, key):
             value = dig(value, path_to(self.name, key))
             key = self.name
         path = [] if key == self.name else path_to(key, self.name)
         if value == {} and dig(self.value, path) == {}:
-            return  # unset already: the master tells also the node that deleted it
+            return  # already unset: the master also tells the node that deleted it
         self.value = graft(self.value, path, value) if path else value
         for subscriber in self.roles:
             subscriber._put(ParamUpdate(key, copy.deepcopy(value)))
         self._context.emit(ParamUpdate(key, copy.deepcopy(value)))
 
     def abort(self) -> None:
-        """There are no connections."""
+        """Do nothing: there are no connections."""
 
     # at the master
 

@@ -17,14 +17,14 @@ __all__ = ["Params"]
 
 
 class Params:
-    """What a node asks the parameter server for, changes there, and follows."""
+    """The parameters that a node reads, changes and follows at the parameter server."""
 
     def __init__(self, context: Context) -> None:
         self.followed: dict[str, FollowedParam] = {}
         """By key, for as long as a subscriber uses them."""
         self._context = context
         self._cached: dict[str, ParamSubscriber] = {}
-        # Changes on their way to the master, for which nobody waits any more.
+        # Changes on their way to the master whose callers were cancelled.
         self._left_alone: set[asyncio.Future[Exception | None]] = set()
 
     async def subscribe(self, key: str, default: Any) -> ParamSubscriber:
@@ -55,8 +55,8 @@ class Params:
     async def set(self, key: str, value: Any) -> None:
         """See :meth:`aioros1.Node.set_param`."""
         key = self._key(key)
-        # What we tell is what arrives: a list for a tuple, and nothing that the caller can
-        # still change. Limits are for what others send.
+        # Announce here what arrives at the master: a list for a tuple, and nothing that the
+        # caller can still change. Limits apply only to what others send.
         document = encode_response(value, what=f"parameter {key}")
         value = decode_response(document, max_values=sys.maxsize)
         await self._change(key, value, lambda: self._context.master.set_param(key, value))
@@ -94,7 +94,7 @@ class Params:
         subscriber = self._cached.get(resolved)
         if subscriber is None:
             subscriber = await self.subscribe(resolved, ...)
-            # Somebody else may have done the same in the meantime.
+            # Another task may have done the same in the meantime.
             if resolved in self._cached:
                 await subscriber.close()
             subscriber = self._cached.setdefault(resolved, subscriber)
@@ -106,7 +106,7 @@ class Params:
             return default
 
     def updated(self, key: str, value: Any) -> bool:
-        """Pass an update on to those whom it concerns; whether there are any."""
+        """Pass an update on to the parameters it concerns; returns whether there are any."""
         concerned = [followed for followed in self.followed.values() if followed.concerns(key)]
         for followed in concerned:
             followed.update(key, value)
@@ -117,9 +117,9 @@ class Params:
     ) -> None:
         """Change a parameter, in a task of the node.
 
-        Who is cancelled cannot know whether the master has got it. So it is not given up
-        half-way, which would leave those who follow the parameter here with another value
-        than the master has; and the next change must not overtake it.
+        A cancelled caller cannot know whether the master got the change. So the change runs
+        to its end: giving up half-way could leave the node's followers of the parameter with
+        another value than the master. The next change must not overtake it either.
         """
         while self._left_alone:
             await asyncio.wait(self._left_alone)
@@ -147,7 +147,7 @@ class Params:
     ) -> None:
         try:
             await tell_master()
-            # The master tells everybody but the one who did it.
+            # The master tells everybody except the node that made the change.
             self.updated(key, value)
         except Exception as error:
             if isinstance(error, MasterUnreachable):
@@ -157,7 +157,7 @@ class Params:
             outcome.set_result(None)
 
     def _doubt(self, key: str) -> None:
-        """It may have changed: those whom it concerns have to ask, with the next heartbeat."""
+        """Have followers of ``key`` ask again with the next heartbeat: it may have changed."""
         for followed in self.followed.values():
             if followed.concerns(key):
                 followed.registration.forget()
@@ -168,5 +168,5 @@ class Params:
 
 
 def _end(outcome: asyncio.Future[Exception | None], key: str) -> None:
-    if not outcome.done():  # the node has ended, perhaps before the task began
+    if not outcome.done():  # the node was closed, perhaps before the task began
         outcome.set_result(ClosedError(f"parameter {key}: the node is closed"))

@@ -21,7 +21,7 @@ __all__ = ["ParamSubscriber"]
 
 @public
 class ParamSubscriber(Role):
-    """Follows a parameter and all below it; made by
+    """Follows a parameter and everything below it; made by
     :meth:`aioros1.Node.subscribe_param`."""
 
     kind = "parameter subscriber"
@@ -35,10 +35,10 @@ class ParamSubscriber(Role):
 
     @property
     def value(self) -> Any:
-        """The value now, a copy of it. Never asks the master.
+        """A copy of the current value. Never asks the master.
 
         Raises :class:`KeyError` when the parameter is not set and there is no default.
-        An empty dict counts as not set, because ROS 1 announces both alike.
+        An empty dict counts as not set, because ROS 1 announces both in the same way.
         """
         value = self._followed.value
         if isinstance(value, dict) and not value:
@@ -64,7 +64,7 @@ class ParamSubscriber(Role):
     ) -> Any:
         """Wait until ``predicate(value)`` is true, and return that value.
 
-        A parameter that is not set, and has no default, is passed over. Raises
+        The predicate is not called while the parameter is not set and has no default. Raises
         :class:`TimeoutError` after ``timeout`` seconds, :class:`~aioros1.ClosedError`, and
         whatever the predicate raises. Takes nothing from the iteration.
         """
@@ -86,7 +86,7 @@ class ParamSubscriber(Role):
         return found[0]
 
     def _begin(self) -> None:
-        """It is handed out: what came before is in its value."""
+        """Drop the updates from before the subscriber was handed out: its value has them."""
         self._updates.clear()
 
     def _put(self, update: ParamUpdate) -> None:

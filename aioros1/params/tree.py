@@ -1,4 +1,4 @@
-"""Where a parameter lies in the tree of all, and how a part of a value is changed. Pure."""
+"""The tree of parameters: finding a key in it and changing part of a value. Pure."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def dig(value: Any, path: list[str]) -> Any:
 
 
 def graft(tree: Any, path: list[str], value: Any) -> Any:
-    """``tree`` with ``value`` at ``path``; what is in the way of the path is replaced.
+    """``tree`` with ``value`` at ``path``, replacing whatever blocks the path.
 
-    A deleted key, announced as ``{}``, is taken out.
+    Removes a deleted key, which is announced as ``{}``.
     """
     tree = dict(tree) if isinstance(tree, dict) else {}
     name, *rest = path

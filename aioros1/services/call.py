@@ -1,4 +1,4 @@
-"""A service call that waits for its answer."""
+"""A service call that waits for your answer."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ A = TypeVar("A")
 
 @public
 class ServiceCall(Generic[Q, A]):
-    """A call that waits for its answer; an item of ``async for call in provider``."""
+    """A call that waits for your answer; an item of ``async for call in provider``."""
 
     __slots__ = ("_answer", "_closed", "_side", "header", "request")
 
@@ -31,7 +31,7 @@ class ServiceCall(Generic[Q, A]):
         self.header = header
         """The caller's connection header; ``header["callerid"]`` is its name."""
         self._side = side
-        # An error is a result here, as nobody may ask for the answer any more.
+        # An error is stored as a result, because the caller may be gone and never await it.
         self._answer: asyncio.Future[bytes | ServiceError] = (
             asyncio.get_running_loop().create_future()
         )
@@ -50,14 +50,14 @@ class ServiceCall(Generic[Q, A]):
 
         Raises :class:`~aioros1.SerializationError` for values that do not fit; the call
         then still waits. Raises :class:`~aioros1.ClosedError` once the provider is closed,
-        which has answered for it, and :class:`RuntimeError` for a second answer. A call
-        whose caller is gone is answered like any other.
+        which answers the call itself, and :class:`RuntimeError` for a second answer. You may
+        answer a call whose caller is gone.
         """
         side = self._side
         self._settle(side.frame(side.outgoing(response, fields)))
 
     async def fail(self, text: str) -> None:
-        """Answer that the call has failed; the caller gets ``text``."""
+        """Answer that the call failed; the caller gets ``text``."""
         self._settle(ServiceError(text))
 
     def _settle(self, answer: bytes | ServiceError) -> None:

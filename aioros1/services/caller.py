@@ -43,38 +43,37 @@ A = TypeVar("A")
 @public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServiceCallerOptions:
-    """How a caller was opened; the defaults are those of
-    :meth:`aioros1.Node.service_caller`."""
+    """Options of a caller; the defaults are those of :meth:`aioros1.Node.service_caller`."""
 
     persistent: bool = False
-    """Keep one connection for all calls, which then happen one after the other.
-    Otherwise every call makes its own, and calls may overlap."""
+    """Keep one connection for all calls, which then run one after the other.
+    Otherwise every call opens its own connection, and calls may overlap."""
 
     timeout: float | None = None
-    """Seconds for a call that does not say; None waits for ever."""
+    """Seconds for a call without a timeout of its own; None waits for ever."""
 
     tcp_nodelay: bool = True
     """Ask the provider to send small answers at once."""
 
     raw: bool = False
-    """Call with serialised bytes alone, whatever the type of the service."""
+    """Send requests and return responses as serialised bytes."""
 
 
 @public
 class PendingCall(asyncio.Task[A]):
-    """A call on its way, from :meth:`ServiceCaller.send_request`; await it for the response."""
+    """A running call, from :meth:`ServiceCaller.send_request`; await it for the response."""
 
     sequence: int
-    """Counts the calls of one caller. Local: nothing of it is on the wire."""
+    """The number of the call within its caller. It is local and never sent."""
 
 
 @public
 class ServiceCaller(Role, Generic[Q, A]):
     """Calls one service; made by :meth:`aioros1.Node.service_caller`.
 
-    A caller is not registered at the master, and opening one does not ask whether the
-    service is there. A request is sent once: when its connection is lost before the
-    answer came, the call fails, because the provider may have acted on it.
+    A caller is not registered at the master, and opening one does not check that the
+    service exists. A request is sent only once: if the connection is lost before the
+    answer comes, the call fails, because the provider may have acted on the request.
     """
 
     kind = "service caller"
@@ -88,15 +87,15 @@ class ServiceCaller(Role, Generic[Q, A]):
     ) -> None:
         super().__init__(context, name)
         self.options = options
-        """How it was opened."""
+        """The options it was opened with."""
         self.service_class = service_class
         """The class of the service; None for a raw caller of any type."""
         self.provider_uri: str | None = None
-        """The ``rosrpc://host:port`` that was called last."""
+        """The ``rosrpc://host:port`` of the last call."""
         self._raw_side = raw_side(f"service {name}")
         is_raw = options.raw or service_class is None
         self._side = self._raw_side if is_raw else callers_side(cast("Any", service_class))
-        self._mutex = Mutex()  # of the persistent connection: one call after the other
+        self._mutex = Mutex()  # for the persistent connection: one call after the other
         self._kept: CallerConnection | None = None
         self._open: set[CallerConnection] = set()
         self._limits = Deadlines()
@@ -119,7 +118,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         return tuple(connection.info for connection in self._open)
 
     def request(self, **fields: Any) -> Q:
-        """A new request. Raises :class:`TypeError` for a raw caller of any type."""
+        """Make a new request. Raises :class:`TypeError` for a raw caller of any type."""
         if self.service_class is None:
             raise TypeError(f"service {self.name}: a caller of any type cannot make requests")
         return cast("Q", self.service_class._request_class(**fields))
@@ -132,20 +131,19 @@ class ServiceCaller(Role, Generic[Q, A]):
         timeout: float | EllipsisType | None = ...,
         **fields: Any,
     ) -> A:
-        """Call with a request, a dict of its fields, or its ``fields``; the response.
+        """Call with a request, a dict of its fields, or its ``fields``; returns the response.
 
-        ``timeout`` is in seconds, None waits for ever, and without it the caller's own
-        counts. It covers everything: the look-up, the connection, the turn on a
-        persistent connection, and the answer.
+        ``timeout`` is in seconds, and None waits for ever; the default is the caller's own.
+        It covers everything: the look-up, the connection, the wait for a persistent
+        connection, and the answer.
 
-        Raises :class:`~aioros1.ServiceError` with the provider's text when it answers
-        that the call failed, :class:`~aioros1.ServiceNotFound` when there is none,
-        :class:`~aioros1.ServiceUnavailable` when it cannot be reached or is lost,
-        :class:`~aioros1.HandshakeError` when it means another type,
+        Raises :class:`~aioros1.ServiceError` with the provider's text when the provider
+        answers that the call failed, :class:`~aioros1.ServiceNotFound` when there is no
+        provider, :class:`~aioros1.ServiceUnavailable` when it cannot be reached or the
+        connection is lost, :class:`~aioros1.HandshakeError` when its type differs,
         :class:`~aioros1.SerializationError` for values that do not fit,
-        :class:`TimeoutError` and :class:`~aioros1.ClosedError`. After a timeout and
-        when it is cancelled the connection is closed, so that an answer that comes late
-        is never taken for another call's.
+        :class:`TimeoutError` and :class:`~aioros1.ClosedError`. A timeout or a cancellation
+        closes the connection, so that a late answer is never taken for another call's.
         """
         if not self._is_open or get_ident() != self._loop_state.thread_id:
             self._check_open()
@@ -162,7 +160,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         *,
         timeout: float | EllipsisType | None = ...,
     ) -> bytes:
-        """Call with a serialised request; the serialised response. Nobody looks into them.
+        """Call with a serialised request, unchecked; returns the serialised response.
 
         Raises as :meth:`call`.
         """
@@ -176,8 +174,8 @@ class ServiceCaller(Role, Generic[Q, A]):
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
         kept, mutex = self._kept, self._mutex
         if seconds is None and kept is not None and not mutex.is_held and kept.link.is_fresh:
-            # The quick way of most calls: there is nothing to wait for but the answer, and
-            # that ends when the connection is closed. A deadline would cost 3 µs.
+            # The fast path of most calls: only the answer is left to wait for, and closing
+            # the connection ends that wait. A deadline would cost 3 µs.
             mutex.is_held = True
             try:
                 return await self._exchange(kept, side, frame)
@@ -190,7 +188,7 @@ class ServiceCaller(Role, Generic[Q, A]):
                 async with mutex:
                     return await self._call_kept(side, frame)
         except TimeoutError:
-            self._check_open()  # closing has ended it, and not the time
+            self._check_open()  # closing ended it, not the timeout
             raise
 
     __call__ = call
@@ -203,7 +201,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         timeout: float | EllipsisType | None = ...,
         **fields: Any,
     ) -> PendingCall[A]:
-        """Begin a call and return at once; awaiting the result gives what :meth:`call` does.
+        """Start a call and return at once; await the result for what :meth:`call` returns.
 
         Cancelling the result cancels the call.
         """
@@ -218,16 +216,16 @@ class ServiceCaller(Role, Generic[Q, A]):
         return call
 
     async def is_available(self) -> bool:
-        """Whether the service is registered and its provider answers for it."""
+        """Whether the service is registered and its provider answers."""
         return await self._obstacle() is None
 
     async def wait_for_service(self, *, timeout: float | None = None) -> None:
         """Wait until :meth:`is_available`.
 
-        Raises :class:`TimeoutError`, which says what was in the way, after ``timeout``
-        seconds, and :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError`, whose text gives the reason, after ``timeout`` seconds,
+        and :class:`~aioros1.ClosedError`.
         """
-        # The master tells nobody of new services, so there is nothing but to ask.
+        # The master announces no new services, so we have to poll.
         backoff = Backoff(first=0.02, longest=0.5)
         async with self._limits.limit(timeout, f"service {self.name} did not appear") as limit:
             while (obstacle := await self._obstacle()) is not None:
@@ -254,7 +252,7 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     async def _call_kept(self, side: Side, frame: bytes) -> Any:
         connection = self._kept
-        # Bytes that nobody asked for must not be taken for the answer to this call.
+        # Unsolicited bytes must not be taken for the answer to this call.
         if connection is not None and not connection.link.is_fresh:
             self._drop(connection)
             connection = None
@@ -263,7 +261,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         return await self._exchange(connection, side, frame)
 
     async def _exchange(self, connection: CallerConnection, side: Side, frame: bytes) -> Any:
-        """Send a request and take the answer; without one the connection is closed."""
+        """Send a request and take the answer; close the connection if none comes."""
         link = connection.link
         size = len(frame)
         counters, stats = connection.info.stats, self.stats
@@ -317,12 +315,12 @@ class ServiceCaller(Role, Generic[Q, A]):
             connection.link.abort()
             raise self._closed_error()
         self._open.add(connection)
-        connection.link.ended = lambda: self._drop(connection)  # also while nobody calls
+        connection.link.ended = lambda: self._drop(connection)  # also between calls
         context.connections.add(self.kind, connection.link, connection.info)
         return connection
 
     def _drop(self, connection: CallerConnection) -> None:
-        connection.link.ended = None  # which would keep it until a collection of garbage
+        connection.link.ended = None  # breaks a reference cycle
         connection.link.abort()
         if connection is self._kept:
             self._kept = None

@@ -19,7 +19,7 @@ __all__ = ["CallerConnection", "connect_to"]
 
 
 class CallerConnection:
-    """A connection whose hands are shaken: requests go out, answers come in."""
+    """A connection after its handshake: requests go out, answers come in."""
 
     __slots__ = ("info", "link")
 
@@ -33,8 +33,8 @@ async def connect_to(
 ) -> CallerConnection:
     """Connect to the provider at ``uri``, ``rosrpc://host:port``.
 
-    Raises :class:`~aioros1.ServiceUnavailable`, and :class:`~aioros1.HandshakeError` when it
-    refuses or means another type.
+    Raises :class:`~aioros1.ServiceUnavailable`, and :class:`~aioros1.HandshakeError` when the
+    provider refuses or has another type.
     """
     stream, header = await agree(
         context, uri, wanted, persistent=persistent, tcp_nodelay=tcp_nodelay

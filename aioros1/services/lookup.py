@@ -1,4 +1,4 @@
-"""Finding the provider of a service, and shaking hands with it."""
+"""Finding the provider of a service, and the handshake with it."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ __all__ = ["agree", "look_up", "probe", "service_class_of", "type_of"]
 
 
 async def look_up(context: Context, service: str) -> str:
-    """The ``rosrpc://host:port`` that the master gives.
+    """Ask the master for the ``rosrpc://host:port`` of ``service``.
 
-    Raises :class:`~aioros1.ServiceNotFound`, and :class:`~aioros1.MasterError` for an answer
-    that is none of a master.
+    Raises :class:`~aioros1.ServiceNotFound`, and :class:`~aioros1.MasterError` for an invalid
+    answer.
     """
     try:
         return await context.master.lookup_service(service)
@@ -50,10 +50,10 @@ async def agree(
     probe: bool = False,
     tcp_nodelay: bool = True,
 ) -> tuple[Stream, Mapping[str, str]]:
-    """Connect to the provider at ``uri``: the connection, and the provider's header.
+    """Connect to the provider at ``uri``; returns the connection and the provider's header.
 
     Raises :class:`~aioros1.ServiceUnavailable`, and :class:`~aioros1.HandshakeError` when
-    it refuses or means another type.
+    the provider refuses or has another type.
     """
     service = wanted.service
     try:
@@ -83,10 +83,10 @@ async def agree(
 
 
 async def probe(context: Context, service: str, limits: Deadlines) -> Mapping[str, str]:
-    """What the provider says of itself when it is asked whether it is there, of whatever
-    type; rosservice asks in the same way, and no provider takes it for a call.
+    """Ask a provider of any type for its header. rosservice probes in the same way, and no
+    provider takes a probe for a call.
 
-    The question ends with ``limits``. Raises as :func:`look_up` and :func:`agree` do.
+    The probe ends with ``limits``. Raises as :func:`look_up` and :func:`agree` do.
     """
     wanted = ServiceOffer(service, type="*", md5sum="*")
     try:
@@ -94,16 +94,16 @@ async def probe(context: Context, service: str, limits: Deadlines) -> Mapping[st
             uri = await look_up(context, service)
             stream, header = await agree(context, uri, wanted, probe=True)
     except TimeoutError:
-        context.check_open()  # closing has ended it, and not the time
+        context.check_open()  # closing ended it, not the timeout
         raise
     stream.abort()
     return header
 
 
 def type_of(service: str, header: Mapping[str, str]) -> str:
-    """The type that a provider has given.
+    """The type in a provider's header.
 
-    Raises :class:`~aioros1.HandshakeError` for what is no type.
+    Raises :class:`~aioros1.HandshakeError` if it is not a valid type.
     """
     name = header.get("type", "")
     try:
@@ -115,12 +115,13 @@ def type_of(service: str, header: Mapping[str, str]) -> str:
 
 
 def service_class_of(context: Context, service: str, header: Mapping[str, str]) -> type[AnyService]:
-    """The class of the type that the provider says it has.
+    """The class of the type that the provider announces.
 
-    A provider says the name of its type and the MD5 sum, and no definition, so that has to
-    be in the node's store. Raises :class:`~aioros1.MessageNotFoundError` when it is not,
-    :class:`~aioros1.Md5MismatchError` when the store has another one by that name,
-    :class:`~aioros1.MessageSpecError` when it cannot be read, and as :func:`agree` does.
+    A provider sends the name and the MD5 sum of its type, but no definition, so the
+    definition has to be in the node's store. Raises :class:`~aioros1.MessageNotFoundError`
+    when it is not, :class:`~aioros1.Md5MismatchError` when the store has another definition
+    by that name, :class:`~aioros1.MessageSpecError` when it cannot be read, and as
+    :func:`agree` does.
     """
     name = type_of(service, header)
     what = f"service {service} of {header.get('callerid', '?')} has type {name}"
@@ -142,7 +143,7 @@ def _address(service: str, uri: str) -> tuple[str, int]:
         if parts.scheme == "rosrpc" and parts.hostname and parts.port:
             return parts.hostname, parts.port
     except ValueError:
-        pass  # no port, or brackets that do not match
+        pass  # no port, or unbalanced brackets
     raise ServiceUnavailable(
         f"service {service}: the master gives {uri!r}, expected rosrpc://host:port"
     )

@@ -25,14 +25,14 @@ A = TypeVar("A")
 @public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServiceProviderOptions:
-    """How a provider was opened; the defaults are those of
+    """Options of a provider; the defaults are those of
     :meth:`aioros1.Node.advertise_service`."""
 
     max_concurrency: int | None = None
-    """Calls that are worked on at a time; further ones wait, in the order they came."""
+    """How many calls are handled at a time; others wait in order of arrival."""
 
     raw: bool = False
-    """Hand over requests, and take responses, as serialised bytes."""
+    """Pass requests and responses as serialised bytes."""
 
     def __post_init__(self) -> None:
         if self.max_concurrency is not None and self.max_concurrency < 1:
@@ -43,9 +43,8 @@ class ServiceProviderOptions:
 class ServiceProvider(Role, Generic[Q, A]):
     """Answers calls of one service; made by :meth:`aioros1.Node.advertise_service`.
 
-    With a handler, that is called with each request. Without one, you iterate the
-    provider, and answer every :class:`~aioros1.ServiceCall` it gives whenever you like, in
-    any order.
+    A handler is called with each request. Without a handler, you iterate over the provider
+    and answer each :class:`~aioros1.ServiceCall` whenever you like, in any order.
     """
 
     kind = "service"
@@ -59,14 +58,14 @@ class ServiceProvider(Role, Generic[Q, A]):
     ) -> None:
         super().__init__(context, provision.name)
         self.options = options
-        """How it was opened."""
+        """The options it was opened with."""
         self.service_class = service_class
         """The class of the service; None for a raw provider of any type."""
         self._provision = provision
 
     @property
     def handler(self) -> Handler[Q, A] | None:
-        """What is called with each request; None if calls are to be taken."""
+        """The function called with each request; None if you iterate over the calls."""
         return self._provision.handler
 
     @property
@@ -87,7 +86,7 @@ class ServiceProvider(Role, Generic[Q, A]):
 
     @property
     def uri(self) -> str:
-        """The ``rosrpc://host:port`` that the master gives to callers."""
+        """The ``rosrpc://host:port`` that callers get from the master."""
         return self._context.address.tcpros_uri
 
     # without a handler
@@ -114,6 +113,6 @@ class ServiceProvider(Role, Generic[Q, A]):
         self._provision.abort()
 
     async def _close(self) -> None:
-        """Let calls that are being worked on be answered, and no further ones begin."""
+        """Let running calls finish, and start no further ones."""
         self._provision.end_calls(self._closed_error())
         await self._provision.leave(self)

@@ -1,9 +1,9 @@
 """One connection of a service provider: requests come in, answers go out.
 
-A request of a persistent connection is worked on where it arrives, if somebody waits for it
-and no answer is stuck: a handler that is a plain function has answered by then, and no task
-was involved. That takes a quarter off the time of a call. Whatever takes longer goes on in
-the task of the connection, one call after the other.
+A request of a persistent connection is handled as soon as it arrives, if the connection's
+task waits for one and no answer is stuck: a handler that is a plain function then answers
+without any task. That takes a quarter off the time of a call. Whatever takes longer continues
+in the task of the connection, one call after the other.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ Handler: TypeAlias = Callable[[Q], Answer[A] | Awaitable[Answer[A]]]
 """A function or a coroutine function that answers a request."""
 
 Work: TypeAlias = Coroutine[Any, Any, bytes]
-"""What gives the answer to a call that was begun."""
+"""A coroutine that returns the answer to a call that has begun."""
 
 
 class Provided(Protocol):
-    """The service that a connection is about."""
+    """What a connection needs of its service."""
 
     side: Side
     handler: Handler[Any, Any] | None
@@ -54,19 +54,19 @@ class Provided(Protocol):
 
     @property
     def patience(self) -> float:
-        """Seconds that a caller of one call may take for its request."""
+        """Seconds in which a caller that is not persistent has to send its request."""
         ...
 
     async def defer(self, request: Any, header: Mapping[str, str]) -> bytes:
-        """Leave a call to somebody who answers it later."""
+        """Queue a call for somebody who answers it later."""
         ...
 
     def log_error(self, what: str, error: Exception) -> None:
-        """Log what has failed."""
+        """Log what failed."""
 
 
 class ProviderConnection:
-    """Answers the calls of one caller, over a connection whose hands are shaken."""
+    """Answers the calls of one caller, over a connection after its handshake."""
 
     def __init__(
         self, provision: Provided, link: ServiceLink, server: Server, info: ConnectionInfo
@@ -75,7 +75,7 @@ class ProviderConnection:
         self._link = link
         self._server = server
         self._info = info
-        self._is_lost = False  # what comes next may be anything
+        self._is_lost = False  # the next bytes may be anything
         self._side = provision.side
 
     async def run(self) -> None:
@@ -90,7 +90,7 @@ class ProviderConnection:
             pass
 
     async def _serve_call(self) -> bool:
-        """Answer one call. False when there is none any more."""
+        """Answer one call. Returns False when there are no more."""
         work = await self._next()
         if work is None:
             return False
@@ -102,12 +102,12 @@ class ProviderConnection:
         return not self._is_lost
 
     async def _next(self) -> bytes | Work | None:
-        """The next request, or the rest of one that was begun; None when no further one
-        can be read."""
+        """The next request, or the remaining work of one that has begun; None when no further
+        request can be read."""
         patience = self._provision.patience
         try:
-            # A persistent connection may be idle for days. A caller that connected for one
-            # call and does not make it is as stuck as one that stops within it.
+            # A persistent connection may be idle for days. A caller that connects for one
+            # call and never makes it is as stuck as one that stops in the middle.
             work: bytes | Work | None = await self._link.receive(
                 patience=None if self._server.persistent else patience
             )
@@ -121,7 +121,7 @@ class ProviderConnection:
         return None
 
     def _at_once(self, frame: bytes) -> Work | None:
-        """Answer a request where it arrives; or give what it takes to answer it."""
+        """Answer a request as it arrives, or return the work that is left."""
         work = self._begin(frame)
         if isinstance(work, bytes):
             self._answer(work)
@@ -129,7 +129,7 @@ class ProviderConnection:
         return work
 
     def _begin(self, frame: bytes) -> bytes | Work:
-        """Begin to work on a request; gives the answer, or what it takes to get it."""
+        """Begin to handle a request; returns the answer, or the work that is left."""
         provision, stats, side, size = self._provision, self._info.stats, self._side, len(frame)
         stats.messages += 1
         stats.bytes += size
@@ -140,8 +140,8 @@ class ProviderConnection:
         try:
             request = side.decode(frame, REQUEST_HEAD, size)
         except DeserializationError as error:
-            # The length said where it ends, but a caller that sends such requests and one
-            # that lost its place look the same.
+            # The length tells where the request ends. But a caller that sends bad requests
+            # and one that is out of step look the same.
             self._is_lost = True
             self._link.stop_reading()
             return encode_failure(f"bad request: {error}")

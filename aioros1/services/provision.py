@@ -25,7 +25,7 @@ __all__ = ["Provision"]
 
 
 class Providing(Protocol):
-    """A provider, as its provision sees it."""
+    """What a provision needs of a provider."""
 
     stats: RoleStats
 
@@ -38,9 +38,9 @@ class Providing(Protocol):
 class Provision(Shared[Providing]):
     """One provided service of one node, and the connections of its callers.
 
-    ``offer`` is what callers are told, ``side`` how requests are read and responses written.
-    Without ``handler`` calls wait in :attr:`calls`. At most ``max_concurrency`` calls of the
-    handler run at a time.
+    ``offer`` is sent to callers; ``side`` reads requests and writes responses. Without
+    ``handler``, calls wait in :attr:`calls`. At most ``max_concurrency`` calls of the handler
+    run at a time.
     """
 
     kind = "service"
@@ -58,16 +58,16 @@ class Provision(Shared[Providing]):
         self.side = side
         self.handler = handler
         self.slots = None if max_concurrency is None else asyncio.Semaphore(max_concurrency)
-        """What calls of the handler have to get hold of, if their number is bounded."""
+        """Held by each running call of the handler, if their number is bounded."""
         self.provider: Providing | None = None
-        """The one role that uses it, or has used it."""
+        """The one provider that uses this, or has used it."""
         self.stats = RoleStats()
         self.bytes_received = 0
         self.bytes_sent = 0
         self.calls: deque[ServiceCall[Any, Any]] = deque()
-        """Calls that wait for somebody to take them."""
+        """Calls that wait to be taken."""
         self.arrived = Waiters()
-        """Woken when a call has come, and when none comes any more."""
+        """Woken when a call arrives, and when no more will."""
         self._offer = offer
         self._unanswered: set[ServiceCall[Any, Any]] = set()
         self._links: dict[ServiceLink, ConnectionInfo] = {}
@@ -80,7 +80,7 @@ class Provision(Shared[Providing]):
 
     @property
     def patience(self) -> float:
-        """Seconds that a caller of one call may take for its request."""
+        """Seconds in which a caller that is not persistent has to send its request."""
         return self._context.timeouts.handshake
 
     @property
@@ -89,10 +89,10 @@ class Provision(Shared[Providing]):
         return tuple(self._links.values())
 
     async def serve(self, stream: Stream, server: Server) -> None:
-        """Answer the calls that come over one connection, whose header is ``server``'s.
+        """Answer the calls of one connection; ``server`` holds its header.
 
         Raises :class:`~aioros1.HandshakeError`, :class:`ConnectionError` and
-        :class:`TimeoutError` when nothing comes of it.
+        :class:`TimeoutError` when it fails.
         """
         context = self._context
         timeouts = context.timeouts
@@ -124,9 +124,9 @@ class Provision(Shared[Providing]):
             context.connections.remove(link, reason)
 
     async def defer(self, request: Any, header: Mapping[str, str]) -> bytes:
-        """Leave a call to whoever iterates the provider; the response, as a frame.
+        """Queue a call for whoever iterates over the provider; returns the response's frame.
 
-        Raises :class:`~aioros1.ServiceError` when that is an error, or nobody answers.
+        Raises :class:`~aioros1.ServiceError` when the answer is an error, or none comes.
         """
         if not self.is_open:
             raise ServiceError("the service is shut down")
@@ -143,11 +143,11 @@ class Provision(Shared[Providing]):
         return answer
 
     def log_error(self, what: str, error: Exception) -> None:
-        """Log what has failed, with its traceback."""
+        """Log what failed, with the traceback."""
         self._context.log.error("service %s: %s", self.name, what, exc_info=error)
 
     def end_calls(self, error: ClosedError) -> None:
-        """Let no call wait any longer; who answers one later gets ``error``."""
+        """End all waiting calls; answering one later raises ``error``."""
         self.calls.clear()
         self.arrived.wake()
         for call in self._unanswered:
@@ -163,7 +163,7 @@ class Provision(Shared[Providing]):
         self.stats = role.stats
 
     async def _disconnect(self) -> None:
-        """Close connections as they become idle, and when it takes too long the rest."""
+        """Close connections as they become idle; close the rest when that takes too long."""
         for link in self._links:
             link.stop_reading()
         try:

@@ -21,13 +21,13 @@ __all__ = ["Services"]
 
 
 class Services:
-    """What a node provides, and calls."""
+    """The services that a node provides and calls."""
 
     def __init__(self, context: Context) -> None:
         self.provisions: dict[str, Provision] = {}
         """By name, for as long as a provider uses them."""
         self._context = context
-        self._probes = Deadlines()  # the questions to providers that are on their way
+        self._probes = Deadlines()  # running probes of providers
 
     async def advertise(
         self,
@@ -47,7 +47,7 @@ class Services:
         while (other := self.provisions.get(name)) is not None and other.provider is not None:
             if other.is_open:
                 raise ValueError(f"{context.name} provides service {name} already")
-            await other.provider.close()  # which goes on, when it was cancelled before
+            await other.provider.close()  # continues a close that was cancelled
         if service_class is None or options.raw:
             side = raw_side(f"service {name}")
         else:
@@ -65,7 +65,7 @@ class Services:
         try:
             await provision.acquire(provider)
         except BaseException:
-            provider._abort()  # somebody may have called already
+            provider._abort()  # there may be calls already
             raise
         return await context.admit(provider, provider._abort)
 
@@ -104,7 +104,7 @@ class Services:
 
     async def wait_for(self, name: str, timeout: float | None) -> None:
         """See :meth:`aioros1.Node.wait_for_service`."""
-        # Of whatever type: to be asked whether it is there, a provider need not know.
+        # Any type will do: a provider answers a probe whatever type it names.
         async with await self.caller(name, "std_srvs/Empty", ServiceCallerOptions()) as caller:
             await caller.wait_for_service(timeout=timeout)
 
@@ -116,7 +116,7 @@ class Services:
         return type_of(name, await probe(context, name, self._probes))
 
     async def serve(self, stream: Stream, server: Server) -> None:
-        """Serve the caller that has connected, whose header is ``server``'s.
+        """Serve a caller that has connected; ``server`` holds its header.
 
         Raises :class:`~aioros1.HandshakeError`, :class:`ConnectionError` and
         :class:`TimeoutError`.
@@ -128,5 +128,5 @@ class Services:
         await provision.serve(stream, server)
 
     def abort(self) -> None:
-        """End all questions at once."""
+        """End all probes at once."""
         self._probes.expire()

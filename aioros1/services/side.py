@@ -1,4 +1,4 @@
-"""What one side of a service reads and writes: requests or responses, as messages or bytes."""
+"""Codecs of the two sides of a service: requests or responses, as messages or bytes."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ class Side:
     """The codec of one side of a service."""
 
     decode: Callable[[bytes, int, int], Any]
-    """What lies in some bytes, from a position to an end.
+    """Decodes what lies in some bytes, from a position to an end.
 
     Raises :class:`~aioros1.DeserializationError`."""
 
     outgoing_class: type
-    """The class of what can be framed as it is."""
+    """The class whose instances :attr:`frame` takes directly."""
 
     frame: Callable[[Any], bytes]
-    """What is sent for it, behind its length."""
+    """Encodes such an instance, with its length in front."""
 
     outgoing: Callable[[Any, Mapping[str, Any]], Any]
-    """What is meant by a message, a dict or nothing, and by fields.
+    """Makes such an instance from a message, a dict or nothing, and from fields.
 
     Raises :class:`~aioros1.SerializationError` and :class:`TypeError`."""
 
@@ -58,7 +58,7 @@ def callers_side(service_class: type[Service[Any, Any]]) -> Side:
 
 
 def raw_side(what: str) -> Side:
-    """Bytes come in, and bytes go out; nobody looks into them. ``what`` is named in errors."""
+    """Bytes come in and bytes go out, unchecked. Errors name ``what``."""
 
     def outgoing(value: Any, fields: Mapping[str, Any]) -> bytes:
         if value is None and not fields:

@@ -1,7 +1,7 @@
-"""For tests of programs that use ROS 1: what goes wrong in the field, on purpose.
+"""Tools to test programs that use ROS 1: they cause on purpose what goes wrong in the field.
 
-The fixtures for pytest are in :mod:`aioros1.testing.pytest_plugin`. Names are imported when
-they are first used, because pytest loads that module wherever aioros1 is installed.
+The fixtures for pytest are in :mod:`aioros1.testing.pytest_plugin`. Names are imported on
+first use, because pytest loads that module wherever aioros1 is installed.
 """
 
 from __future__ import annotations

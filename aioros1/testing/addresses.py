@@ -1,4 +1,4 @@
-"""Addresses of TCP, as sockets take them and as people read them."""
+"""TCP addresses, as sockets take them and as people read them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ Address = tuple[socket.AddressFamily, tuple[str, int]]
 async def addresses_of(host: str, port: int) -> list[Address]:
     """The numeric addresses of ``host``, the one to try first in front.
 
-    Only real names are looked up, which takes a thread. Raises :class:`OSError` for a name
-    that nobody knows.
+    Only real names are looked up, which takes a thread. Raises :class:`OSError` for an
+    unknown name.
     """
     if host.rstrip(".").lower() == "localhost":
         return [(socket.AF_INET, ("127.0.0.1", port)), (socket.AF_INET6, ("::1", port))]
@@ -39,5 +39,5 @@ async def addresses_of(host: str, port: int) -> list[Address]:
 
 
 def host_and_port(host: str, port: int) -> str:
-    """``host:port``, with brackets around a numeric address of IPv6."""
+    """``host:port``, with brackets around a numeric IPv6 address."""
     return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"

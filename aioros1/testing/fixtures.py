@@ -1,6 +1,6 @@
-"""Fixtures for tests with pytest and pytest-asyncio: a graph of their own, and simulated time.
+"""Fixtures for pytest and pytest-asyncio: a ROS graph for each test, and simulated time.
 
-Asynchronous ones live in the event loop of the test, in both modes of pytest-asyncio.
+Asynchronous fixtures run in the event loop of the test, in both modes of pytest-asyncio.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 _ENVIRONMENT = ("ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE", "ROS_IPV6")
 
-# This module is imported when all plugins are. Without that one, nothing runs the
-# asynchronous fixtures, and `_in_the_loop` says so.
+# All plugins are loaded by the time this module is imported. Without pytest-asyncio nothing
+# runs the asynchronous fixtures, and `_in_the_loop` says so.
 _asyncio_plugin: Any = sys.modules.get("pytest_asyncio")
 _async_fixture: Callable[..., Any] = (
     pytest.fixture if _asyncio_plugin is None else _asyncio_plugin.fixture
@@ -69,14 +69,14 @@ def _why_not(request: pytest.FixtureRequest) -> str | None:
 
 @_async_fixture
 async def ros_master(_in_the_loop: None) -> AsyncIterator[Master]:
-    """A :class:`aioros1.Master` at a free port of localhost, with nothing in its graph.
+    """A :class:`aioros1.Master` on a free port of localhost, with an empty graph.
 
-    ``ROS_MASTER_URI`` is set to it for the test, so that the code under test finds it;
-    ``ROS_IP``, ``ROS_HOSTNAME``, ``ROS_NAMESPACE`` and ``ROS_IPV6`` are not set.
+    ``ROS_MASTER_URI`` points to it during the test, so that the code under test finds it;
+    ``ROS_IP``, ``ROS_HOSTNAME``, ``ROS_NAMESPACE`` and ``ROS_IPV6`` are unset.
     """
     from aioros1 import Master
 
-    # Without the node /rosout, so that the graph holds what a test puts there.
+    # Without the node /rosout, so that the graph holds only what a test puts there.
     async with Master(host="localhost", port=0, rosout=False) as master:
         with pytest.MonkeyPatch.context() as patch:
             for name in _ENVIRONMENT:
@@ -87,9 +87,9 @@ async def ros_master(_in_the_loop: None) -> AsyncIterator[Master]:
 
 @_async_fixture
 async def ros_clock(ros_master: Master) -> AsyncIterator[SimulatedClock]:
-    """A :class:`~aioros1.testing.SimulatedClock` in that graph, which begins at one second.
+    """A :class:`~aioros1.testing.SimulatedClock` in the graph of ``ros_master``, from 1 s on.
 
-    It is there before the nodes of ``make_node`` and ``ros_node``, and tracks them.
+    It starts before the nodes of ``make_node`` and ``ros_node``, and tracks them.
     """
     from aioros1.testing.simulated_clock import SimulatedClock
 
@@ -99,7 +99,7 @@ async def ros_clock(ros_master: Master) -> AsyncIterator[SimulatedClock]:
 
 @pytest.fixture
 def _clock_or_none(request: pytest.FixtureRequest, _in_the_loop: None) -> SimulatedClock | None:
-    """The clock before any node, wherever the test has it among its arguments."""
+    """The clock, set up before any node wherever it is among the test's arguments."""
     if "ros_clock" not in request.fixturenames:
         return None
     clock: SimulatedClock = request.getfixturevalue("ros_clock")
@@ -110,7 +110,7 @@ def _clock_or_none(request: pytest.FixtureRequest, _in_the_loop: None) -> Simula
 async def make_node(
     ros_master: Master, _clock_or_none: SimulatedClock | None
 ) -> AsyncIterator[MakeNode]:
-    """``await make_node("name", **options)``: a started node, closed with the test."""
+    """``await make_node("name", **options)``: a started node, closed after the test."""
     from aioros1.testing.makers import MakeNode
 
     async with contextlib.AsyncExitStack() as stack:
@@ -119,14 +119,14 @@ async def make_node(
 
 @_async_fixture
 async def ros_node(make_node: MakeNode) -> Node:
-    """A started node, ``/node``, of ``make_node``."""
+    """A started node, ``/node``, made by ``make_node``."""
     return await make_node("node")
 
 
 @_async_fixture
 async def flaky_proxy(_in_the_loop: None) -> AsyncIterator[MakeFlakyProxy]:
     """``await flaky_proxy(host, port, **options)``: an open
-    :class:`~aioros1.testing.FlakyProxy`, closed with the test."""
+    :class:`~aioros1.testing.FlakyProxy`, closed after the test."""
     from aioros1.testing.makers import MakeFlakyProxy
 
     async with contextlib.AsyncExitStack() as stack:
@@ -144,13 +144,13 @@ async def _tasks_before(_in_the_loop: None) -> set[asyncio.Task[Any]]:
 def no_leaks(request: pytest.FixtureRequest) -> Iterator[LeakCheck]:
     """Fail the test if it leaves anything behind.
 
-    That is, when its other fixtures of function scope have ended: tasks and nodes that run
-    on, sockets and files that are open, threads.
+    Looks for running tasks and nodes, open sockets and files, and threads, after the test's
+    other fixtures of function scope have ended.
     """
     from aioros1.testing.leaks import LeakCheck
 
     if _is_asyncio(request):
-        request.getfixturevalue("_tasks_before")  # the loop is there, and its files
+        request.getfixturevalue("_tasks_before")  # the loop and its files exist now
     check = LeakCheck()
     yield check
     if leaks := check.leaks(wait=not _is_asyncio(request)):
@@ -167,7 +167,7 @@ async def _look_into_loop(
 
 @pytest.fixture(autouse=True)
 def _leaks_last(request: pytest.FixtureRequest) -> None:
-    """``no_leaks`` before all other fixtures, so that it ends after them, where it is wanted."""
+    """Set up ``no_leaks``, if used, before all other fixtures, so that it ends after them."""
     marker = request.node.get_closest_marker("no_leaks")
     if marker is not None:
         wanted = bool(marker.args[0] if marker.args else marker.kwargs.get("check", True))

@@ -1,4 +1,4 @@
-"""One connection through a :class:`.FlakyProxy`, and all that can be done to it."""
+"""One connection through a :class:`.FlakyProxy`, and the faults you can give it."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ __all__ = [
 ]
 
 Directions = Literal["up", "down", "both"]
-"""Which way of a connection a fault is for."""
+"""The directions of a connection that a fault applies to."""
 
 _BOTH: tuple[Direction, Direction] = ("up", "down")
 
 
 class Flaky:
-    """The faults that a connection, or all of those of a proxy, can have.
+    """The faults that you can give a connection, or all connections of a proxy.
 
     ``direction`` is ``"up"`` (from the client to the server), ``"down"`` or ``"both"``.
     """
@@ -37,7 +37,7 @@ class Flaky:
     def stall(self, direction: Directions = "both") -> None:
         """Let nothing pass, not even the end; the connections stay open.
 
-        Nothing is read either, so that the sender feels it once the system's buffers are full.
+        Nothing is read either, so the sender blocks once the system's buffers are full.
         """
         self._change(direction, stalled=True)
 
@@ -46,16 +46,16 @@ class Flaky:
         self._change(direction, stalled=False)
 
     def throttle(self, bytes_per_second: float | None, direction: Directions = "both") -> None:
-        """Let no more than so many bytes pass in a second; ``None`` ends it."""
+        """Let at most this many bytes pass per second; ``None`` ends it."""
         rate = bytes_per_second
         if rate is not None and not 0 < rate < math.inf:
             raise ValueError(f"bytes_per_second must be positive or None, got {rate!r}")
         self._change(direction, rate=rate)
 
     def delay(self, seconds: float, direction: Directions = "both") -> None:
-        """Let every byte, and the end, come so much later than it would; 0 ends it.
+        """Delay every byte, and the end, by this many seconds; 0 ends it.
 
-        No more than 64 KiB are on their way in a direction, so a delay bounds the rate too.
+        At most 64 KiB are on their way in each direction, so a delay bounds the rate too.
         """
         if not 0 <= seconds < math.inf:
             raise ValueError(f"seconds must not be negative, got {seconds!r}")
@@ -64,7 +64,7 @@ class Flaky:
     def corrupt(
         self, probability: float, direction: Directions = "both", *, seed: int | None = None
     ) -> None:
-        """Change each byte to another one with this probability; 0 ends it.
+        """Change each byte to another with this probability; 0 ends it.
 
         With a ``seed``, the same bytes of the same connection are changed in every run.
         """
@@ -77,7 +77,7 @@ class Flaky:
 
 
 def directions(direction: Directions) -> tuple[Direction, ...]:
-    """The one, or both. Raises :class:`ValueError` for anything else."""
+    """The one direction, or both. Raises :class:`ValueError` for anything else."""
     if direction == "both":
         return _BOTH
     if direction not in _BOTH:
@@ -87,10 +87,10 @@ def directions(direction: Directions) -> tuple[Direction, ...]:
 
 @public("aioros1.testing")
 class FlakyConnection(Flaky):
-    """One connection of a client, through the proxy, to the server.
+    """One connection from a client through the proxy to the server.
 
-    A script of :class:`FlakyProxy` is given it, and ``connections`` of that has those that
-    are open.
+    A script of :class:`FlakyProxy` gets it as its argument, and ``connections`` of the proxy
+    has those that are open.
     """
 
     def __init__(
@@ -102,11 +102,11 @@ class FlakyConnection(Flaky):
         on_closed: Callable[[FlakyConnection], None],
     ) -> None:
         self.number = number
-        """Counts the connections of a proxy, from 1."""
+        """The number of the connection in its proxy, from 1."""
         self.client = client
-        """The address and port that it came from."""
+        """The address and port of the client."""
         self.is_open = True
-        """Whether it can still carry bytes; False once it was ended, by whomever."""
+        """Whether it can still carry bytes; False once any side has ended it."""
         self._loop = asyncio.get_running_loop()
         self._on_closed = on_closed
         self._closed = asyncio.Event()
@@ -131,13 +131,13 @@ class FlakyConnection(Flaky):
         return self._flows["down"].passed
 
     async def passed(self, bytes: int, direction: Direction) -> None:
-        """Wait until so many bytes, since the connection was made, have passed.
+        """Wait until this many bytes have passed since the connection was made.
 
-        They have been handed to the system, towards their receiver. The byte after them has
-        not, and will not before the waiting task had its turn: a fault that it sets in its
-        next step begins exactly there. Returns at once if as many have passed already.
+        They have been handed to the system, towards their receiver. The next byte has not,
+        and will not be until the waiting task has run: a fault that it sets in its next step
+        begins exactly there. Returns at once if that many have already passed.
 
-        Raises :class:`ConnectionError` when this direction ends before.
+        Raises :class:`ConnectionError` when this direction ends earlier.
         """
         if direction not in _BOTH:
             raise ValueError(f"direction must be 'up' or 'down', got {direction!r}")
@@ -148,17 +148,17 @@ class FlakyConnection(Flaky):
         await self._closed.wait()
 
     def cut(self) -> None:
-        """Reset the connection, to both sides."""
+        """Reset the connection on both sides."""
         self._end(reset=True)
 
     def close(self) -> None:
-        """End the connection towards both sides in good order; what has not passed is lost."""
+        """Close the connection properly on both sides; bytes that have not passed are lost."""
         self._end(reset=False)
 
     def shut(self, direction: Directions) -> None:
         """End one direction towards its receiver; the other one goes on.
 
-        What has not passed, and what the sender sends from now on, is lost.
+        Bytes that have not passed, and those sent from now on, are lost.
         """
         for way in directions(direction):
             self._flows[way].shut()
@@ -166,8 +166,8 @@ class FlakyConnection(Flaky):
     # for the proxy
 
     def _connect(self, addresses: Sequence[Address], then: Callable[[], object]) -> None:
-        """Connect to the first of ``addresses`` that takes it, call ``then()`` and begin.
-        If none does, the client is reset."""
+        """Connect to the first of ``addresses`` that accepts, call ``then()`` and begin.
+        Reset the client if none does."""
         for tried, (family, address) in enumerate(addresses, start=1):
             sock = socket.socket(family, socket.SOCK_STREAM)
             sock.setblocking(False)
@@ -207,7 +207,7 @@ class FlakyConnection(Flaky):
             flow.stop()
         for sock in self._sockets:
             self._loop.remove_writer(sock)  # it may still be connecting
-            with contextlib.suppress(OSError):  # what is reset already has no options
+            with contextlib.suppress(OSError):  # a socket that was reset has no options
                 if reset:
                     sock.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
                 else:
@@ -218,7 +218,7 @@ class FlakyConnection(Flaky):
 
 
 def _read_away(sock: socket.socket) -> None:
-    """Take what has come: the system resets a connection that is closed with bytes unread."""
+    """Read all that has come: the system resets a connection closed with unread bytes."""
     for _ in range(100):
         if not sock.recv(ROOM):
             return

@@ -25,14 +25,14 @@ from aioros1.testing.flow import ConnectionLost, Direction, Faults
 __all__ = ["FlakyProxy", "Script"]
 
 Script = Callable[[FlakyConnection], Awaitable[object]]
-"""What happens to a connection; called for each, in a task of its own."""
+"""Controls a connection; called for each one, in a task of its own."""
 
 _GONE_BEFORE = (errno.ECONNABORTED, errno.EINTR)
 
 
 @public("aioros1.testing")
 class FlakyProxy(Flaky):
-    """A TCP proxy before ``host`` and ``port``, that does to connections what it is told.
+    """A TCP proxy in front of ``host`` and ``port`` that gives connections faults on demand.
 
     ::
 
@@ -41,22 +41,22 @@ class FlakyProxy(Flaky):
             proxy.stall("down")
 
     It listens at ``listen_host`` and ``listen_port`` (0 takes a free one) while the block
-    runs; entering raises :class:`OSError` if that is taken. Leaving it closes all connections.
+    runs; entering raises :class:`OSError` if the port is taken. Leaving the block closes all
+    connections.
 
-    The faults (:meth:`stall`, :meth:`throttle`, :meth:`delay`, :meth:`corrupt`) are for the
-    connections that are open and for those to come; a :class:`FlakyConnection` has the same
-    for itself, and of two that contradict each other the later one holds. A connection that
-    the server refuses is reset. What a side ends or resets, is ended or reset on the other.
+    The faults (:meth:`stall`, :meth:`throttle`, :meth:`delay`, :meth:`corrupt`) apply to open
+    connections and to later ones. A :class:`FlakyConnection` has the same methods for itself;
+    of two contradictory faults the later one holds. The proxy resets a connection that the
+    server refuses. When one side ends or resets a connection, the other side sees the same.
 
     ``script(connection)`` is called for each new connection once it has reached the server,
-    and runs to its first pause before any byte passes. An exception of it ends the block,
-    which raises it (several at once as an :class:`ExceptionGroup`); only the
-    :class:`ConnectionError` of :meth:`FlakyConnection.passed` is none. A script that still
-    runs when the block ends is cancelled. The block ends with an :class:`OSError`, too, when
-    no more files can be opened for connections.
+    and runs to its first pause before any byte passes. An exception of a script ends the
+    block, which raises it (several at once as an :class:`ExceptionGroup`), except for the
+    :class:`ConnectionError` of :meth:`FlakyConnection.passed`. The end of the block cancels
+    scripts that still run. The block also ends, with an :class:`OSError`, when no more files
+    can be opened for connections.
 
-    The event loop must be able to watch sockets; the one for I/O completion ports of Windows
-    is not.
+    The event loop must be able to watch sockets; the proactor event loop of Windows cannot.
     """
 
     def __init__(
@@ -71,11 +71,11 @@ class FlakyProxy(Flaky):
         _check_port("port", port, 1)
         _check_port("listen_port", listen_port, 0)
         self.host = listen_host
-        """Where it listens."""
+        """The address where it listens."""
         self.port = listen_port
-        """The port there; known for certain while the block runs."""
+        """The port where it listens; certain only while the block runs."""
         self.accepted = 0
-        """How many connections have come so far."""
+        """How many connections it has accepted so far."""
         self._target = host, port
         self._addresses: list[Address] = []
         self._script = script
@@ -87,7 +87,7 @@ class FlakyProxy(Flaky):
         self._socket: socket.socket | None = None
         self._family = socket.AF_INET
         self._listening = False
-        self._came = asyncio.Event()  # another one after each connection
+        self._came = asyncio.Event()  # replaced after each connection
         self._is_closed = False
         self._user: asyncio.Task[Any] | None = None
         self._user_cancelled = False
@@ -125,7 +125,7 @@ class FlakyProxy(Flaky):
         user, self._user = self._user, None
         assert user is not None
         if self._user_cancelled:
-            user.uncancel()  # it was ours
+            user.uncancel()  # the cancellation was ours
         self._stop_listening()
         self._is_closed = True
         self._wake()
@@ -145,11 +145,11 @@ class FlakyProxy(Flaky):
 
     @property
     def connections(self) -> tuple[FlakyConnection, ...]:
-        """Those that are open, the oldest first."""
+        """The open connections, oldest first."""
         return tuple(self._connections.values())
 
     async def wait_accepted(self, n: int) -> None:
-        """Wait until ``n`` connections have come in all.
+        """Wait until ``n`` connections in total have been accepted.
 
         Raises :class:`~aioros1.ClosedError` when the proxy is closed.
         """
@@ -162,15 +162,15 @@ class FlakyProxy(Flaky):
             await self._came.wait()
 
     def cut(self) -> None:
-        """Reset every connection, to both sides. New ones are still taken."""
+        """Reset every connection on both sides. New ones are still accepted."""
         self._take_waiting()
         for connection in self.connections:
             connection.cut()
 
     def refuse(self) -> None:
-        """Refuse new connections, as if nothing listened; those that are open go on.
+        """Refuse new connections, as if nothing listened; open ones go on.
 
-        Nobody else gets the port meanwhile.
+        The proxy keeps the port meanwhile.
         """
         if self._listening:
             self._take_waiting()
@@ -178,17 +178,17 @@ class FlakyProxy(Flaky):
             self._socket = self._bound()
 
     def accept(self) -> None:
-        """Take new connections again, at the same port."""
+        """Accept new connections again, on the same port."""
         if self._socket is not None and not self._listening:
             self._socket.listen(512)
             self._loop.add_reader(self._socket, self._take_waiting)
             self._listening = True
 
     def half_open(self, enabled: bool = True) -> None:
-        """Take new connections from now on, but do nothing with them: there is no connection
-        to the server, nothing is read and nothing is said, as of a program that hangs.
+        """Accept new connections from now on, but do nothing with them: connect to no server,
+        read nothing and send nothing, like a program that hangs.
 
-        ``half_open(False)`` ends it for the connections after that.
+        ``half_open(False)`` ends it for later connections.
         """
         self._take_waiting()
         self._half_open = enabled
@@ -200,11 +200,11 @@ class FlakyProxy(Flaky):
         return self.host, self.port
 
     def _bound(self) -> socket.socket:
-        """A socket that has the port, but does not listen, so that connecting is refused."""
+        """A socket that is bound but does not listen, so that connecting is refused."""
         sock = socket.socket(self._family, socket.SOCK_STREAM)
         try:
             sock.setblocking(False)
-            if os.name == "posix":  # connections through the port may still be open
+            if os.name == "posix":  # connections on the port may still be open
                 sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             sock.bind(self._own)
         except OSError as error:
@@ -233,10 +233,10 @@ class FlakyProxy(Flaky):
                 self._take(sock, address[:2])
             except BlockingIOError:
                 return
-            except OSError as error:  # there are no more files, most likely
+            except OSError as error:  # most likely too many open files
                 if error.errno not in _GONE_BEFORE:
                     self._stop_listening()
-                    # Later, because whoever called this is not to be cancelled inside.
+                    # Later, because the caller must not be cancelled in the middle of this.
                     self._loop.call_soon(self._fail, error)
 
     def _take(self, sock: socket.socket, client: tuple[str, int]) -> None:
@@ -251,7 +251,7 @@ class FlakyProxy(Flaky):
         self._wake()
 
     def _wake(self) -> None:
-        """Let those who wait for connections look again."""
+        """Let tasks that wait for connections check again."""
         self._came.set()
         self._came = asyncio.Event()
 
@@ -276,7 +276,7 @@ class FlakyProxy(Flaky):
         try:
             await script(connection)
         except* ConnectionLost:
-            pass  # the end of a connection is nothing that scripts have to expect
+            pass  # scripts need not handle the end of a connection
 
     def _script_ended(self, task: asyncio.Task[None]) -> None:
         self._scripts.remove(task)

@@ -1,7 +1,7 @@
-"""One direction of a connection through a :class:`.FlakyProxy`: the bytes, and their harm.
+"""One direction of a connection through a :class:`.FlakyProxy`: its bytes and their faults.
 
-Sockets are used bare, not through transports: those buffer what is written, and then nobody
-could say which byte has passed, nor stop the one after it.
+This uses plain sockets instead of transports. Transports buffer what is written, so you could
+neither tell which byte has passed nor stop the next one.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ Direction = Literal["up", "down"]
 """From the client to the server, or back."""
 
 ROOM = 64 * 1024
-"""Bytes that a direction holds, beyond what the system does."""
+"""Bytes that a direction holds, beyond the system's buffers."""
 
 _OVERHEAD = 256
-"""What a piece costs beyond its bytes, so that many small ones are bounded too."""
+"""Bytes added to the size of each piece, so that many small ones are bounded too."""
 
 _SLICE = 0.02
 """Seconds' worth of bytes that a throttled direction lets through at once."""
 
 _TURNS = 5
-"""Turns of the event loop for a script to act in, after :meth:`FlakyConnection.passed` or
-its start; more than one, because it may wait through ``wait_for`` or a task group."""
+"""Iterations of the event loop that a script has to act, after its start or after
+:meth:`FlakyConnection.passed`; several, because it may wait in ``wait_for`` or a task group."""
 
 
 class ConnectionLost(ConnectionError):
@@ -42,7 +42,7 @@ class ConnectionLost(ConnectionError):
 
 @dataclass(frozen=True, slots=True)
 class Faults:
-    """What is wrong with one direction."""
+    """The faults of one direction."""
 
     stalled: bool = False
     rate: float | None = None
@@ -52,10 +52,10 @@ class Faults:
 
 
 class Flow:
-    """One direction: reads here, writes there, and does harm in between.
+    """One direction: reads from one socket, writes to the other, and applies faults between.
 
-    Everything happens in :meth:`_flow`, which does what can be done now and sees to it that
-    it is called again when there may be more.
+    Everything happens in :meth:`_flow`, which does what is possible now and arranges to be
+    called again when there may be more to do.
     """
 
     def __init__(
@@ -69,16 +69,16 @@ class Flow:
         sink: socket.socket | None = None,
     ) -> None:
         self.passed = 0
-        self.ended = False  # the receiver was told so
+        self.ended = False  # the receiver has been told of the end
         self._name = f"{number}/{way}"
         self._on_end = on_end
         self._on_loss = on_loss
         self._loop = asyncio.get_running_loop()
         self._source: socket.socket | None = None
         self._sink = sink
-        self._queue: deque[tuple[float, memoryview]] = deque()  # when it came; b"" is the end
+        self._queue: deque[tuple[float, memoryview]] = deque()  # time of arrival; b"" is the end
         self._queued = 0
-        self._harmed = 0  # bytes at the head of the queue that went through the corruption
+        self._harmed = 0  # bytes at the head of the queue that corruption has handled
         self._all_read = False
         self._reading = self._writing = False
         self._next = 0.0  # when a throttled direction may go on
@@ -158,7 +158,7 @@ class Flow:
             came, data = self._queue[0]
             wait = max(came + self._faults.delay, self._next) - time.monotonic()
             if wait > 0:
-                # Not less than event loops can tell apart, or it would be called in vain.
+                # At least the resolution of event loops, or it would be called in vain.
                 self._timer = self._loop.call_later(max(wait, 0.001), self._flow)
                 break
             if not data:
@@ -177,7 +177,7 @@ class Flow:
         self._watch(reading=reading, writing=blocked)
 
     def _piece(self, came: float, data: memoryview) -> memoryview:
-        """What of ``data``, the head of the queue, may be sent at once; with its harm."""
+        """The part of ``data``, the head of the queue, that may be sent now, corrupted if due."""
         count = len(data)
         if self._faults.rate is not None:
             count = min(count, max(1, int(self._faults.rate * _SLICE)))
@@ -215,7 +215,7 @@ class Flow:
 
     def _tell_end(self) -> None:
         if self._sink is not None:
-            with contextlib.suppress(OSError):  # it has gone already
+            with contextlib.suppress(OSError):  # the peer has already gone
                 self._sink.shutdown(socket.SHUT_WR)
 
     # waiting
@@ -245,7 +245,7 @@ class Flow:
             self._timer = None
 
     def _hold(self, turns: int) -> None:
-        """Let nothing pass for some turns of the event loop."""
+        """Let nothing pass for some iterations of the event loop."""
         self._held = turns > 0
         if self._held:
             self._loop.call_soon(self._hold, turns - 1)
@@ -253,7 +253,7 @@ class Flow:
             self._flow()
 
     def _settle(self) -> None:
-        """Wake those who wait for bytes that have passed, or never will."""
+        """Wake tasks that wait for bytes that have passed or never will."""
         over = self.ended or self._stopped
         for mark in list(self._marks):
             count, future = mark
@@ -264,7 +264,7 @@ class Flow:
 
 
 class _Corruption:
-    """Changes bytes at random; which ones does not depend on the pieces they come in."""
+    """Changes random bytes; which ones does not depend on how the bytes are split."""
 
     def __init__(self, faults: Faults, name: str) -> None:
         self._probability = faults.corruption
@@ -280,7 +280,7 @@ class _Corruption:
         self._gap = at - len(data)
 
     def _next_gap(self) -> int:
-        """How many bytes are spared before the next: drawn once, not for each byte."""
+        """How many bytes to leave before the next change: drawn once, not for each byte."""
         if not 0 < self._probability < 1:
             return 0
         drawn = math.log(1.0 - self._random.random()) / math.log1p(-self._probability)

@@ -1,4 +1,4 @@
-"""What a test has left behind."""
+"""Finding what a test has left behind."""
 
 from __future__ import annotations
 
@@ -19,30 +19,29 @@ from typing import Any
 __all__ = ["LeakCheck"]
 
 _PATIENCE = 1.0
-"""Seconds for transports and threads that were told to end; asyncio offers no way to wait."""
+"""Seconds for closing transports and threads to end; asyncio has no way to wait for them."""
 
 _TURNS = 5
-"""Turns of the loop for what closes in a later one, and cannot be told from uvloop's own."""
+"""Iterations of the event loop for what closes late and looks like uvloop's own."""
 
 _DIRECTORIES = ("/proc/self/fd", "/dev/fd")
 
 _KINDS = (stat.S_IFSOCK, stat.S_IFIFO, stat.S_IFREG)
-"""Devices and what has no kind, as event loops have them, are left out."""
+"""Kinds of files to check; devices and files without a kind, which event loops use, are not."""
 
 _File = tuple[int, int, int]
-"""Its number, and what tells it from others with that number before and after."""
+"""The number of a file, and what tells it from earlier and later files with that number."""
 
 
 class LeakCheck:
-    """Knows what there was when it was made, and says what has come since and not gone.
+    """Records what exists when it is made, and reports what has been added since and remains.
 
-    Tasks of an event loop, with the nodes they belong to; open sockets, pipes and files, where
-    the system lists them; threads, but for those in which the loop runs ``asyncio.to_thread``
-    and looks up addresses: they belong to the loop.
+    It finds tasks of an event loop, with the nodes they belong to; open sockets, pipes and
+    files, where the system lists them; and threads. It ignores the threads in which the loop
+    runs ``asyncio.to_thread`` and looks up addresses, because they belong to the loop.
 
-    It is made, and asked for :meth:`leaks`, while the loop does not run: for the time that it
-    does, uvloop has sockets of its own. What is in the loop is said by :meth:`look_into_loop`,
-    before that.
+    Make it, and call :meth:`leaks`, while the loop does not run: while it runs, uvloop has
+    sockets of its own. Before :meth:`leaks`, :meth:`look_into_loop` checks the loop itself.
     """
 
     def __init__(self) -> None:
@@ -53,8 +52,8 @@ class LeakCheck:
         self._executor: str | None = None
 
     async def look_into_loop(self, before: set[asyncio.Task[Any]]) -> None:
-        """See which tasks are there that were not ``before``, and wait a while for transports
-        and threads that were told to end."""
+        """Find tasks that are not in ``before``, and wait a while for closing transports and
+        threads to end."""
         left = asyncio.all_tasks() - before - {asyncio.current_task()}
         self._found += [*_unclosed(left), *sorted(f"task {task!r}" for task in left)]
         for _ in range(_TURNS):
@@ -69,13 +68,16 @@ class LeakCheck:
             await asyncio.sleep(0.01)
 
     def leaks(self, *, wait: bool) -> list[str]:
-        """A line for each leak, after a while if :meth:`look_into_loop` did not ``wait``."""
+        """A line for each leak; with ``wait`` it first gives files and threads a while to end.
+
+        After :meth:`look_into_loop` there is no need to ``wait``.
+        """
         end = time.monotonic() + (_PATIENCE if wait else 0)
         while (self._new_files() or self._new_threads()) and time.monotonic() < end:
             time.sleep(0.01)
         if self._new_files() or self._new_threads():
             self._found[:0] = _unclosed_masters(self._new_files())
-            # Of what is only garbage, only that is a leak which complains that nobody closed it.
+            # Garbage counts as a leak only if it warns that nobody closed it.
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always", ResourceWarning)
                 gc.collect()
@@ -91,7 +93,7 @@ class LeakCheck:
             each
             for each in threading.enumerate()
             if each not in self._threads
-            # Threads of C code that have once called Python stay known to it.
+            # Python keeps a record of every C thread that has ever called it.
             and not isinstance(each, threading._DummyThread)
             and not (self._executor is not None and each.name.startswith(self._executor))
         ]
@@ -107,7 +109,7 @@ def _unclosed(tasks: set[asyncio.Task[Any]]) -> Iterator[str]:
     if tasks and node is not None:
         owners = {task.get_name() for task in tasks}
         for each in gc.get_objects():
-            # By type(): looking at the __class__ of a stranger may run code of it.
+            # type(), because reading the __class__ of an unknown object may run its code.
             if issubclass(type(each), node.Node) and f"node {each.name} supervisor" in owners:
                 yield f"never closed: {each!r}"
 
@@ -124,36 +126,36 @@ def _unclosed_masters(files: list[_File]) -> Iterator[str]:
 
 
 async def _executor_prefix() -> str | None:
-    """How the names of the threads of the loop's executor begin, whatever loop it is."""
+    """The prefix of the thread names of the loop's executor, whatever the kind of loop."""
     running = asyncio.get_running_loop().run_in_executor(None, threading.current_thread)
     try:
         async with asyncio.timeout(_PATIENCE):
             thread = await running
-    except TimeoutError:  # all of them are busy, and are left indeed
+    except TimeoutError:  # all threads are busy, and really are leaks
         return None
     return thread.name.rpartition("_")[0] + "_"
 
 
 def _open_files() -> Iterator[_File]:
-    """What is open of sockets, pipes and files; none where the system does not list them."""
+    """The open sockets, pipes and files; none where the system does not list them."""
     for directory in _DIRECTORIES:
         try:
             names = os.listdir(directory)
         except OSError:
             continue
         for name in names:
-            # What was used for listing is closed again.
+            # The descriptor used for listing is already closed.
             with contextlib.suppress(OSError, ValueError):
                 number = int(name)
                 status = os.fstat(number)
-                # The standard streams are turned to and fro by pytest.
+                # pytest redirects the standard streams back and forth.
                 if number > 2 and stat.S_IFMT(status.st_mode) in _KINDS:
                     yield number, status.st_dev, status.st_ino
         return
 
 
 def _open_pipe_of_uvloop() -> None:
-    """The first loop of it, in whatever test, opens a pipe for signals that the process keeps."""
+    """Have uvloop open its pipe for signals, which its first loop does and the process keeps."""
     if (uvloop := sys.modules.get("uvloop")) is not None:
         _make_and_close(uvloop.new_event_loop)
 
@@ -164,7 +166,7 @@ def _make_and_close(new_event_loop: Callable[[], asyncio.AbstractEventLoop]) -> 
 
 
 def _pipes_of_multiprocessing() -> set[Any]:
-    """To the helpers that it starts once, for all processes to come, and keeps."""
+    """Pipes to the helper processes that multiprocessing starts once and keeps."""
     helpers = {
         "resource_tracker": ("_resource_tracker", "_fd"),
         "forkserver": ("_forkserver", "_forkserver_alive_fd"),
@@ -176,7 +178,7 @@ def _pipes_of_multiprocessing() -> set[Any]:
 
 
 def _socket(number: int) -> socket.socket | None:
-    """A copy of the socket with this number, if it is one."""
+    """A copy of the socket with this number, or ``None`` if it is no socket."""
     copy = -1
     try:
         copy = os.dup(number)
@@ -188,7 +190,7 @@ def _socket(number: int) -> socket.socket | None:
 
 
 def _own_name(number: int) -> Any:
-    """Where the socket with this number is bound; ``None`` if it is no socket."""
+    """The address of the socket with this number; ``None`` if it is no socket."""
     if (copy := _socket(number)) is None:
         return None
     with copy:
@@ -196,7 +198,7 @@ def _own_name(number: int) -> Any:
 
 
 def _is_nameless(number: int) -> bool:
-    """Whether it is one of a pair of sockets, as uvloop has while it runs."""
+    """Whether this is one of a pair of sockets, such as uvloop has while it runs."""
     return _own_name(number) in ("", b"")
 
 

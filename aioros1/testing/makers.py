@@ -1,4 +1,4 @@
-"""What a test makes, and what is closed with it."""
+"""Makers of nodes and proxies that are closed after the test."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ __all__ = ["MakeFlakyProxy", "MakeNode"]
 class MakeNode:
     """``await make_node("name", **options)``: a started node in the graph of ``master_uri``.
 
-    Nodes are at ``localhost`` and quiet, unless the options say otherwise: no ``/rosout``,
-    no services for logger levels. The rest is as for :class:`~aioros1.Node`. Those that
-    follow simulated time have the time of ``clock`` from the start.
+    Unless the options say otherwise, nodes are at ``localhost`` and have no ``/rosout`` and
+    no services for logger levels. Other defaults are those of :class:`~aioros1.Node`. Nodes
+    that follow simulated time have the time of ``clock`` from the start.
     """
 
     def __init__(
@@ -41,7 +41,7 @@ class MakeNode:
     async def __call__(self, name: str = "node", **options: Any) -> Node:
         options.setdefault("master_uri", self._master_uri)
         options.setdefault("host", "localhost")
-        # Less to set up, and less in the graph.
+        # Without these there is less to set up, and less in the graph.
         options.setdefault("rosout", False)
         options.setdefault("logger_services", False)
         node = await self._stack.enter_async_context(Node(name, **options))

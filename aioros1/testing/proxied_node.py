@@ -1,4 +1,4 @@
-"""Proxies between a node and everybody who connects to it."""
+"""Proxies between a node and everything that connects to it."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ _NETWORK = ipaddress.ip_network("127.0.0.0/8")
 @public("aioros1.testing")
 @dataclass(frozen=True, slots=True)
 class NodeProxies:
-    """The two proxies before a node; to both, "up" is towards the node."""
+    """The two proxies in front of a node; for both, "up" is towards the node."""
 
     slave_api: FlakyProxy
-    """What the master and other nodes ask (XML-RPC over HTTP)."""
+    """Requests of the master and other nodes (XML-RPC over HTTP)."""
 
     tcpros: FlakyProxy
     """Topics that the node publishes and services that it provides."""
 
     def cut(self) -> None:
-        """Reset every connection of both."""
+        """Reset every connection of both proxies."""
         self.slave_api.cut()
         self.tcpros.cut()
 
@@ -41,15 +41,15 @@ class NodeProxies:
 @public("aioros1.testing")
 @contextlib.asynccontextmanager
 async def proxies_before(node: Node, *, script: Script | None = None) -> AsyncIterator[NodeProxies]:
-    """Stand between ``node`` and everybody who connects to it.
+    """Put proxies between ``node`` and everything that connects to it.
 
     The node has to be started, and made with two addresses of this machine, as in
-    ``Node(name, host="127.0.0.2", bind="127.0.0.1")``: it listens at ``bind``, and tells
-    others ``host`` with the same port numbers. There the proxies listen. Nothing that is
-    said has to be rewritten for that.
+    ``Node(name, host="127.0.0.2", bind="127.0.0.1")``: it listens at ``bind``, and announces
+    ``host`` with the same port numbers, where the proxies listen. So no message has to be
+    rewritten.
 
-    ``script`` is for the connections of both. What the node itself connects to does not go
-    through them. Only on Linux are all of 127.0.0.0/8 addresses of the machine.
+    ``script`` is called for the connections of both proxies. Connections that the node itself
+    opens do not go through them. Only on Linux does all of 127.0.0.0/8 belong to the machine.
 
     Raises :class:`ValueError` for a node with other addresses, :class:`RuntimeError` for one
     that is not started or on another system, and :class:`OSError` if a port is taken.

@@ -1,7 +1,7 @@
 """The fixtures of :mod:`aioros1.testing.fixtures` for pytest, and their options.
 
-pytest loads this wherever aioros1 is installed, whether a test uses it or not: that is why
-nothing else is imported here, and why the fixtures import what they need when they are used.
+pytest loads this wherever aioros1 is installed, whether a test uses it or not. So this module
+imports nothing else, and the fixtures import what they need when they are used.
 """
 
 from __future__ import annotations
@@ -26,5 +26,5 @@ def pytest_configure(config: pytest.Config) -> None:
         "no_leaks(check=True): fail if the test leaves tasks, files or threads behind, as with "
         "the fixture no_leaks; no_leaks(False): not, whatever the option aioros1_check_leaks says",
     )
-    # Here, when it is known whether pytest-asyncio is loaded.
+    # Only now is it known whether pytest-asyncio is loaded.
     config.pluginmanager.register(import_module("aioros1.testing.fixtures"), "aioros1-fixtures")

@@ -12,16 +12,16 @@ from aioros1._public import public
 __all__ = ["SimulatedClock"]
 
 _PATIENCE = 5.0
-"""Seconds, of the real kind, for a node to take a time over, or for tasks to come to rest."""
+"""Real seconds for a node to receive a new time, or for tasks to settle."""
 
 _QUIET_TURNS = 5
-"""Turns of the event loop in which no task was ready to run. One is not enough: what
-``gather`` and the like wait for comes by way of callbacks, a turn for each of them."""
+"""Iterations of the event loop in which no task was ready to run. One is not enough:
+``gather`` and the like wake through callbacks, one iteration for each."""
 
 
 @public("aioros1.testing")
 class SimulatedClock:
-    """Publishes ``/clock``, and waits for what comes of it.
+    """Publishes ``/clock``, and waits until its effects have happened.
 
     ::
 
@@ -29,20 +29,20 @@ class SimulatedClock:
             await clock.track(node)
             await clock.advance(10)
 
-    When the block begins, ``/use_sim_time`` is set to true, a node ``/simulated_clock``
-    publishes, latched, and the time is ``start``, seconds or a :class:`~aioros1.Time`. It
-    cannot be zero: that means in ROS that there is no time yet. When the block ends,
-    ``/use_sim_time`` is deleted; nodes that are still open keep the time that they have.
+    Entering the block sets ``/use_sim_time`` to true and starts a node ``/simulated_clock``,
+    which publishes, latched. The first time is ``start``, in seconds or as a
+    :class:`~aioros1.Time`. It cannot be zero, which in ROS means that there is no time yet.
+    Leaving the block deletes ``/use_sim_time``; nodes that are still open keep their time.
 
-    :meth:`set` and :meth:`advance` return when two things have happened. Every node that
-    was given to :meth:`track`, is open and follows ``/clock`` has the new time. And what was
-    woken by it has run: no task of the event loop, but the one that waits here, is ready to
-    run, so that each waits for something that has not happened, as for a later time, for a
-    message or for real time. A sleep that is over has returned then, and what comes after it
-    has run up to where it has to wait; so have the bodies of rates and the callbacks of
-    timers. They let the tasks run in the same way before the time changes: a task that was
-    just made has begun to wait. What is on its way between nodes is not waited for, nor are
-    programs in other processes; they get ``/clock`` as from any simulator.
+    :meth:`set` and :meth:`advance` return when two things have happened. First, every node
+    that you gave to :meth:`track`, is open and follows ``/clock`` has the new time. Second,
+    the tasks that it woke have run: each task of the event loop, except the caller, waits for
+    something that has not happened, such as a later time, a message or real time. By then a
+    sleep that is over has returned, and the code after it has run to its next wait; so have
+    the bodies of rates and the callbacks of timers. Tasks also run in this way before the time
+    changes, so a task that was just made has begun to wait. Messages on their way between
+    nodes are not waited for, nor are other processes; they get ``/clock`` as from any
+    simulator.
     """
 
     def __init__(self, master_uri: str | None = None, *, start: float | Time = 1.0) -> None:
@@ -63,7 +63,7 @@ class SimulatedClock:
         await self._node.__aenter__()
         try:
             await self._node.set_param("/use_sim_time", True)
-            # Nobody is to miss a step, however quickly they come.
+            # No subscriber may miss a step, however quickly they come.
             self._publisher = await self._node.advertise(
                 "/clock", "rosgraph_msgs/Clock", latch=True, overflow="block"
             )
@@ -83,7 +83,7 @@ class SimulatedClock:
             if self._node.is_open and await self._node.has_param("/use_sim_time"):
                 await self._node.delete_param("/use_sim_time")
         except ConnectionError:
-            pass  # the master has gone, and the parameter with it
+            pass  # the master is gone, and the parameter with it
         finally:
             await self._node.__aexit__(exc_type, exc, traceback)
 
@@ -93,18 +93,18 @@ class SimulatedClock:
 
     @property
     def now(self) -> Time:
-        """The time that was published last."""
+        """The time published last."""
         return self._now
 
     async def track(self, node: Node) -> None:
-        """Wait for ``node``, now and at each change, until it has the time over.
+        """Wait until ``node`` has the time, now and at each change.
 
-        For nodes in the same event loop; in tests with pytest those of the fixtures are
-        tracked already. One that was started before the clock takes it over with its next
-        heartbeat. Raises :class:`TimeoutError` if the time does not come to it.
+        The node has to be in the same event loop. The nodes of the pytest fixtures are
+        already tracked. A node that was started before the clock adopts it with its next
+        heartbeat. Raises :class:`TimeoutError` if the time does not reach the node.
         """
         self._tracked.append(node)
-        # One that was there before the clock learns of it as of any change of a parameter.
+        # A node older than the clock learns of it like of any changed parameter.
         if node.uses_sim_time or self._will_follow(node):
             await self._wait_for(node)
 
@@ -112,7 +112,7 @@ class SimulatedClock:
         """Jump to ``time``, in seconds or as a :class:`~aioros1.Time`, in one step.
 
         Rates and timers that should have ticked several times on the way tick once. A jump
-        backwards ends whatever waits, as when a simulation starts over.
+        backwards ends all waits, as when a simulation starts over.
 
         Raises :class:`ValueError` for a time that is not after zero, and
         :class:`TimeoutError` as :meth:`advance` does.
@@ -125,13 +125,13 @@ class SimulatedClock:
     async def advance(self, duration: float | Duration) -> None:
         """Let ``duration`` pass, in seconds or as a :class:`~aioros1.Duration`.
 
-        The clock stops on the way wherever a tracked node waits for a moment, the earliest
-        first, so that everything happens at its time: a rate of 10 ticks ten times in a
-        second, each time with the right :attr:`now`.
+        The clock stops at every time that a tracked node waits for, in order, so that
+        everything happens at its time: a rate of 10 ticks ten times in a second, each time
+        with the right :attr:`now`.
 
-        Raises :class:`ValueError` for a duration that is negative, and :class:`TimeoutError`
-        when five real seconds did not do for a step: a node did not take the time over, or
-        a task never waits for anything.
+        Raises :class:`ValueError` for a negative duration, and :class:`TimeoutError` when a
+        step takes more than five real seconds: a node did not receive the time, or a task
+        never waits for anything.
         """
         length = duration if isinstance(duration, Duration) else Duration.from_sec(duration)
         if length < Duration():
@@ -144,7 +144,7 @@ class SimulatedClock:
             await self._step(end)
 
     def _next_awaited(self) -> Time | None:
-        """The earliest moment after now that somebody waits for."""
+        """The earliest time after now that a tracked node waits for."""
         moments = [
             moment
             for node in self._following()
@@ -179,7 +179,7 @@ class SimulatedClock:
                 f"{_PATIENCE} s; it has {node.now()}"
             ) from None
         except ClosedError:
-            pass  # it needs no time any more
+            pass  # the node no longer needs the time
 
     async def _settle(self) -> None:
         """Let tasks run until each of them waits for something that has not happened."""
@@ -197,7 +197,7 @@ class SimulatedClock:
 
 
 def _is_ready(task: asyncio.Task[object]) -> bool:
-    # There is no public way to ask; the tasks of asyncio, which uvloop has too, have this
+    # There is no public way to ask. asyncio's tasks, which uvloop uses too, have this
     # attribute in every version of Python.
     waiter = getattr(task, "_fut_waiter", None)
     return waiter is None or bool(waiter.done())

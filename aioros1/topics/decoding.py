@@ -1,4 +1,4 @@
-"""From what was received to what a subscriber hands out."""
+"""Decoders: they turn received bytes into what a subscriber hands out."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ Decoder = Callable[[Received], Any]
 def decoder_for(
     message_class: type[Message] | None, store: MessageStore, *, raw: bool, views: bool
 ) -> Decoder:
-    """What turns a frame into a message of ``message_class``, or into bytes if ``raw``.
+    """Return a decoder from frames to messages of ``message_class``, or to bytes if ``raw``.
 
-    Without a class, each publisher's messages are decoded as that publisher defines them;
-    ``store`` keeps the definitions. With ``views`` arrays of numbers are not copied. The
+    Without a class, each publisher's messages are decoded by that publisher's definition;
+    ``store`` keeps the definitions. With ``views``, arrays of numbers are not copied. The
     decoder raises :class:`~aioros1.DeserializationError`.
     """
     if raw:
@@ -41,7 +41,7 @@ def _raw(item: Received) -> bytes:
 
 
 def _decoder_of(cls: type[Message], views: bool) -> Decoder:
-    """Small frames lie in bytes, large ones in a view."""
+    """Return a decoder for frames of ``cls``: small ones are bytes, large ones a view."""
     codec = codec_of(cls)
     small, large, with_views = codec.decode, codec.decode_view, codec.decode_views
 

@@ -1,4 +1,4 @@
-"""Several subscribers as one iteration."""
+"""Iterating over several subscribers at once."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class Merge(Generic[M]):
     """An asynchronous iterator over the messages of several subscribers; made by
     :func:`aioros1.merge`.
 
-    It has no queue of its own: each message stays in its subscriber's until it is taken, so
-    one that is cancelled has lost none.
+    It has no queue of its own: each message stays in its subscriber's queue until you take
+    it, so cancelling loses none.
     """
 
     def __init__(self, subscribers: tuple[Subscriber[Any], ...]) -> None:
@@ -48,14 +48,14 @@ class Merge(Generic[M]):
             try:
                 return first[1].name, first[1].get_nowait()
             except asyncio.QueueEmpty:
-                pass  # what was there could not be decoded
+                pass  # the message could not be decoded
 
     def __repr__(self) -> str:
         return f"<Merge of {', '.join(sub.name for sub in self._subscribers) or 'nothing'}>"
 
 
 async def _wait_for_any(subscribers: list[Subscriber[Any]]) -> None:
-    """Wait until one of them has a message, or is closed."""
+    """Wait until one of ``subscribers`` has a message or is closed."""
     arrived = asyncio.get_running_loop().create_future()
 
     def wake() -> None:
@@ -88,11 +88,10 @@ def merge(*subscribers: Subscriber[Any]) -> Merge[Any]:
         async for topic, message in aioros1.merge(odometry, scans):
             ...
 
-    The messages come in the order in which they were received, each with the resolved name
-    of its topic. The subscriber does not hand out again what was taken here. Subscribers
-    that are closed are left out from then on, and the iteration ends with the last of them.
-    Raises :class:`TypeError` for anything that is no :class:`~aioros1.Subscriber`, and for
-    one that has a callback.
+    Messages come in the order in which they were received, each with the resolved name of
+    its topic. A message taken here is gone from its subscriber. A closed subscriber drops
+    out, and the iteration ends when all are closed. Raises :class:`TypeError` for anything
+    that is not a :class:`~aioros1.Subscriber`, and for a subscriber with a callback.
     """
     for each in subscribers:
         if not isinstance(each, Subscriber):

@@ -1,4 +1,4 @@
-"""How publishers and subscribers are opened."""
+"""Options of publishers and subscribers."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ __all__ = ["PublisherOptions", "SubscriberOptions"]
 @public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PublisherOptions:
-    """How a publisher was opened; the defaults are those of :meth:`aioros1.Node.advertise`."""
+    """Options of a publisher; the defaults are those of :meth:`aioros1.Node.advertise`."""
 
     latch: bool = False
     """Keep the last message, and send it to every subscriber that connects later."""
 
     queue_size: int = DEFAULT_QUEUE_SIZE
-    """Messages that may wait for one subscriber whose connection takes no more."""
+    """How many messages may wait for one subscriber whose connection is full."""
 
     overflow: Overflow = "drop_oldest"
-    """Which message goes when that queue is full; with ``block`` none does."""
+    """Which message is dropped when that queue is full; ``block`` drops none."""
 
     tcp_nodelay: bool = False
-    """Kept for the record: small messages are never held back, whatever this says."""
+    """Has no effect: small messages are always sent at once."""
 
     headers: Mapping[str, str] | None = field(default=None)
-    """Additional fields of the connection header that subscribers get."""
+    """Extra fields for the connection header that subscribers receive."""
 
     def __post_init__(self) -> None:
         check_queue(self.queue_size, self.overflow)
@@ -38,23 +38,23 @@ class PublisherOptions:
 @public
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SubscriberOptions:
-    """How a subscriber was opened; the defaults are those of :meth:`aioros1.Node.subscribe`."""
+    """Options of a subscriber; the defaults are those of :meth:`aioros1.Node.subscribe`."""
 
     queue_size: int = DEFAULT_QUEUE_SIZE
-    """Messages that wait to be taken."""
+    """How many messages may wait in the queue."""
 
     overflow: Overflow = "drop_oldest"
-    """Which message goes when that queue is full; with ``block`` none does: the
-    publishers' connections are not read until there is room."""
+    """Which message is dropped when that queue is full; ``block`` drops none, and stops
+    reading the publishers' connections until there is room."""
 
     tcp_nodelay: bool = True
     """Ask publishers to send small messages at once."""
 
     raw: bool = False
-    """Hand out serialised messages, as ``bytes``."""
+    """Hand out messages serialised, as ``bytes``."""
 
     views: bool = False
-    """Hand out numeric arrays and ``uint8[]`` as memoryviews of what was received,
+    """Hand out numeric arrays and ``uint8[]`` as memoryviews of the received bytes,
     without copying them."""
 
     def __post_init__(self) -> None:

@@ -1,15 +1,15 @@
 """A topic that a node publishes: its subscribers' connections, and how messages reach them.
 
-The publishers of one topic in one node share a :class:`Publication`, because to the
-rest of the graph they are one. This is the sending half of the data path:
+The publishers of one topic in one node share a :class:`Publication`, because the rest of
+the graph sees them as one. This is the sending half of the data path:
 
-* A message is encoded once, by the publisher, and written to all connections.
-* One that comes alone is written at once. One that follows on the heels of another
-  (:mod:`aioros1.net.coalescing`) is collected with those behind it and written as one block, at
-  64 KiB or at the end of the turn of the event loop: one system call per message reaches
-  0.4 million messages a second, blocks reach 4 million.
-* The block is joined once for all connections that keep up. One that does not leaves
-  the fast lane and gets a queue of its own until it has caught up.
+* The publisher encodes a message once, and it is written to all connections.
+* A message on its own is written at once. Messages in quick succession
+  (:mod:`aioros1.net.coalescing`) are collected and written as one block, at 64 KiB or at the
+  end of the iteration of the event loop: one system call per message reaches 0.4 million
+  messages a second, blocks reach 4 million.
+* The block is joined once for all connections that keep up. A connection that falls behind
+  leaves this fast path and gets a queue of its own until it has caught up.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ __all__ = ["Publication"]
 
 
 class Publishing(Protocol):
-    """A publisher, as its publication sees it."""
+    """What a publication needs of a publisher."""
 
     options: PublisherOptions
     stats: RoleStats
     _latched: Frame | None
-    """The message that new subscribers get first."""
+    """The message that every new subscriber gets first."""
 
     @property
     def is_open(self) -> bool: ...
@@ -62,21 +62,21 @@ class Publication(Shared[Publishing]):
         super().__init__(context, topic, table)
         self.message_class = message_class
         self.changed = Waiters()
-        """Woken when a connection comes or goes, and when a queue gets shorter."""
+        """Woken when a connection opens or closes, and when a queue gets shorter."""
         self._bytes_of_closed = 0
-        # Tuples that are replaced, not changed: writing to a connection may end it or
-        # slow it down while we walk through them.
+        # Tuples, replaced rather than changed: writing to a connection may end it or slow
+        # it down while we iterate over them.
         self._open: tuple[OutgoingLink, ...] = ()
         self._slow: tuple[OutgoingLink, ...] = ()
         self._pending: list[bytes] = []
         self._pending_bytes = 0
-        # Plain attributes, for they are looked at for every message.
+        # Plain attributes, because every message reads them.
         self.coalescer = context.loop_state.coalescer
         self.is_congested = False
-        """Whether messages wait in the queue of any connection."""
+        """Whether any connection has messages in its queue."""
         self.has_subscribers = False
         self.known_subscribers = 0
-        """How many the master named when it was last told of this publication."""
+        """How many subscribers the master named when this was last registered."""
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
@@ -90,7 +90,7 @@ class Publication(Shared[Publishing]):
 
     @property
     def bytes_published(self) -> int:
-        """What all publishers have published so far, closed ones too."""
+        """Bytes that all publishers have published so far, including closed ones."""
         return self._bytes_of_closed + sum(each.stats.bytes for each in self.roles)
 
     @property
@@ -104,7 +104,7 @@ class Publication(Shared[Publishing]):
         return self._open + self._slow
 
     def check_type(self, message_class: type[Message]) -> None:
-        """Raise :class:`~aioros1.Md5MismatchError` for a type that is not the one published."""
+        """Raise :class:`~aioros1.Md5MismatchError` for a type other than the published one."""
         ours = self.message_class
         is_used = any(publisher.is_open for publisher in self.roles)
         if is_used and ours._md5sum != message_class._md5sum:
@@ -117,7 +117,7 @@ class Publication(Shared[Publishing]):
     # sending
 
     def send(self, frame: Frame, publisher: Publishing) -> None:
-        """Give ``frame`` to every connection, or to its queue, as ``publisher`` wants."""
+        """Write ``frame`` to every connection or its queue, by the options of ``publisher``."""
         stats = publisher.stats
         stats.messages += 1
         coalescer = self.coalescer
@@ -136,8 +136,8 @@ class Publication(Shared[Publishing]):
             return
         size = len(frame) if isinstance(frame, bytes) else sum(map(len, frame))
         stats.bytes += size
-        # Before anything else: a connection may fill up with what is sent here, and then
-        # belongs to those for whom the frame is queued.
+        # This comes first: it may fill a connection, and the frame is then queued for that
+        # connection too.
         self._flush()
         for link in self._slow:
             self._enqueue(link, frame, publisher)
@@ -149,7 +149,7 @@ class Publication(Shared[Publishing]):
             keep_memory(size)  # for the next one to be encoded
 
     def has_room(self, publisher: Publishing) -> bool:
-        """Whether every queue would take one more message without dropping any."""
+        """Whether every queue can take one more message without dropping any."""
         size = publisher.options.queue_size
         return not self._slow or all(self._waiting(link, publisher) < size for link in self._slow)
 
@@ -160,7 +160,7 @@ class Publication(Shared[Publishing]):
         return sum(1 for _, owner in link.queue if owner is publisher)
 
     def _enqueue(self, link: OutgoingLink, frame: Frame, publisher: Publishing) -> None:
-        """Queue a message for a slow connection; a full queue is the publisher's policy."""
+        """Queue a message for a slow connection; ``overflow`` decides if the queue is full."""
         if self._waiting(link, publisher) < publisher.options.queue_size:
             link.queue.append((frame, publisher))
             return
@@ -183,14 +183,14 @@ class Publication(Shared[Publishing]):
                 link.write(block, len(pending))
 
     def _look(self) -> None:
-        """Set what depends on the connections."""
+        """Update the attributes that depend on the connections."""
         self.is_congested = bool(self._slow)
         self.has_subscribers = bool(self._open or self._slow)
 
     # connections
 
     async def serve(self, stream: Stream, server: Server) -> None:
-        """Send a subscriber what is published, from its handshake to its end.
+        """Serve a subscriber's connection, from the handshake until it closes.
 
         Raises :class:`~aioros1.HandshakeError` and :class:`ConnectionError`.
         """
@@ -213,8 +213,8 @@ class Publication(Shared[Publishing]):
         await take_over(stream, link)
         self._add(link)
         if not self.roles:
-            # The last publisher is being closed, and the master has not told the subscriber
-            # yet: it has come for nothing, but nothing is wrong.
+            # The last publisher is closing, and the master has not told the subscriber yet.
+            # Nothing is wrong, but there is nothing to send.
             link.close()
         try:
             await link.wait_closed()
@@ -222,9 +222,9 @@ class Publication(Shared[Publishing]):
             link.abort()
 
     def _add(self, link: OutgoingLink) -> None:
-        """A subscriber has connected: it gets what is latched, then what is published."""
+        """Add a new connection: it gets the latched messages, then what is published."""
         self._flush()
-        if link.is_open:  # or it was paused by its own handshake, and is among the slow ones
+        if link.is_open:  # or its own handshake paused it, and it is among the slow ones
             self._open += (link,)
         self._look()
         for publisher in self.roles:
@@ -242,8 +242,8 @@ class Publication(Shared[Publishing]):
         self._look()
 
     def link_opened(self, link: OutgoingLink) -> None:
-        # Messages of this turn that wait in the common block have gone through the
-        # link's own queue already, so the block must go out before the link is back.
+        # The common block holds messages of this iteration that the link has already sent
+        # from its own queue, so the block must go out before the link rejoins.
         self._flush()
         self._slow = tuple(other for other in self._slow if other is not link)
         self._open += (link,)
@@ -276,15 +276,16 @@ class Publication(Shared[Publishing]):
             link.abort()
 
     def _part(self, role: Publishing) -> None:
-        """What it has published still goes out."""
+        """Remove a publisher; what it has published still goes out."""
         super()._part(role)
         self._bytes_of_closed += role.stats.bytes
         self.changed.wake()
 
     async def _let_go(self) -> None:
-        """Close all connections once what was published has gone out; cut off the rest.
+        """Close all connections once everything published has gone out; cut off the rest.
 
-        Before the master knows: some subscribers close the connection at its notice.
+        This happens before the master knows: some subscribers close the connection as soon
+        as it tells them.
         """
         self._flush()
         links = self._links

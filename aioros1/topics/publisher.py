@@ -35,10 +35,9 @@ M = TypeVar("M", bound=Message)
 class Publisher(Role, Generic[M]):
     """Publishes messages of one type on one topic; made by :meth:`Node.advertise`.
 
-    Every subscriber has a connection of its own. Messages go into the socket as long
-    as that takes them, then into a queue of ``queue_size`` messages for that
-    subscriber; what happens when it is full is said by ``overflow``. One slow
-    subscriber never holds up the others.
+    Every subscriber has its own connection. Messages go to the socket while it accepts
+    them, then into a queue of ``queue_size`` messages for that subscriber; ``overflow``
+    decides what happens when the queue is full. A slow subscriber never holds up the others.
     """
 
     kind = "publisher"
@@ -52,19 +51,19 @@ class Publisher(Role, Generic[M]):
     ) -> None:
         super().__init__(context, publication.name)
         self.options = options
-        """How it was opened."""
+        """The options it was opened with."""
         self.message_class = message_class
         """The class of its messages."""
-        self._latched: Frame | None = None  # the message that new subscribers get first
+        self._latched: Frame | None = None  # the message that every new subscriber gets first
         self._publication = publication
         self._blocks = options.overflow == "block"
         self._latches = options.latch
         self._frame = _frame_encoder(message_class)
         self._is_numbered = message_class._has_header
-        # Messages of this class are encoded as they are: a call less for each.
+        # Messages of exactly this class are encoded directly, which saves a call for each.
         self._plain_class = None if self._is_numbered else message_class
         self._seq = 0
-        self._timers: WeakSet[Timer] = WeakSet()  # those that run keep themselves
+        self._timers: WeakSet[Timer] = WeakSet()  # a running timer keeps itself alive
 
     @property
     def type(self) -> str:
@@ -89,24 +88,24 @@ class Publisher(Role, Generic[M]):
 
     @property
     def dropped(self) -> int:
-        """Messages dropped so far from full queues, counted once per subscriber."""
+        """How many messages full queues have dropped so far, counted once per subscriber."""
         return self.stats.dropped
 
     def message(self, **fields: Any) -> M:
-        """A new message of the topic's type."""
+        """Make a new message of the topic's type."""
         return self.message_class(**fields)
 
     def publish(
         self, msg: M | GenpyMessage | Mapping[str, Any] | None = None, /, **fields: Any
     ) -> None:
-        """Publish a message, or one made of ``fields``. Never waits.
+        """Publish a message, or one made from ``fields``. Never waits.
 
-        ``msg`` is a message of the topic's type, also one of genpy's, or a dict of its
-        fields. If its type has a header, ``header.seq`` is set in ``msg``.
+        ``msg`` is a message of the topic's type (genpy's class works too) or a dict of its
+        fields. If the type has a header, this sets ``header.seq`` in ``msg``.
 
         Raises :class:`~aioros1.SerializationError` for values that do not fit,
         :class:`~aioros1.ClosedError`, and with ``overflow="block"``
-        :class:`asyncio.QueueFull` when a subscriber has no room; then nobody got it.
+        :class:`asyncio.QueueFull` when a subscriber has no room; no subscriber gets it then.
         """
         if not self._is_open:
             raise self._closed_error()
@@ -125,9 +124,9 @@ class Publisher(Role, Generic[M]):
         publication.send(frame, self)
 
     def publish_raw(self, buffer: bytes | bytearray | memoryview) -> None:
-        """Publish a message that is serialised already; it is not looked into.
+        """Publish a message that is already serialised, without checking it.
 
-        Raises as :meth:`publish`. ``buffer`` may be changed afterwards.
+        Raises as :meth:`publish`. You may change ``buffer`` afterwards.
         """
         if not self._is_open:
             raise self._closed_error()
@@ -151,17 +150,17 @@ class Publisher(Role, Generic[M]):
     ) -> None:
         """Publish as soon as every connected subscriber has room in its queue.
 
-        Nothing is dropped then, whatever ``overflow`` says. It goes out at once while
-        there is room, but from time to time other tasks run before.
+        This drops nothing, whatever ``overflow`` says. While there is room it publishes at
+        once, but lets other tasks run first from time to time.
 
-        Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds;
-        then, and when it is cancelled, the message was not published.
+        Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds. After
+        a timeout or a cancellation the message was not published.
         """
         if not self._is_open:
             raise self._closed_error()
         publication = self._publication
         coalescer = publication.coalescer
-        # Before it is published, and nothing after it: who is cancelled may send it again.
+        # Wait only before publishing, never after: a cancelled caller may send it again.
         if coalescer.should_yield or not publication.has_subscribers:
             await asyncio.sleep(0)
             self._check_open()
@@ -186,14 +185,14 @@ class Publisher(Role, Generic[M]):
         /,
         **fields: Any,
     ) -> Timer:
-        """Publish again and again, every ``period`` seconds of the node's time, first after one.
+        """Publish every ``period`` seconds of the node's time, first after one period.
 
-        ``msg`` is what :meth:`publish` takes, and published as it is at that moment; or a
-        function, which may be a coroutine function, that is called with the time each time
-        and gives the message, or None for none. It ends with the publisher, or with
-        :meth:`Timer.cancel` of what is returned. With ``overflow="block"`` a message waits
-        for room as :meth:`send` does, and the ticks that it misses are skipped. An exception
-        is treated as one in a timer's callback, see ``on_error`` of :class:`~aioros1.Node`.
+        ``msg`` is anything that :meth:`publish` takes, and is published as it is at each
+        tick. Or it is a function or coroutine function that takes the time and returns the
+        message, or None to publish nothing. Publishing ends with the publisher, or with
+        :meth:`Timer.cancel` of the returned timer. With ``overflow="block"`` a message waits
+        for room as in :meth:`send`, and skips the ticks that it misses. Exceptions are
+        treated like those of a timer's callback: see ``on_error`` of :class:`~aioros1.Node`.
 
         Raises :class:`ValueError` for a period that is not positive,
         :class:`~aioros1.SerializationError` for a message that cannot be published, and
@@ -201,7 +200,7 @@ class Publisher(Role, Generic[M]):
         """
         self._check_open()
         if not callable(msg):
-            # What is wrong is told here, and not later to nobody.
+            # Raise here, where the caller sees it, and not later in the timer.
             self._frame(message_from(self.message_class, msg, fields, "msg"))
 
         async def publish(now: Time) -> None:
@@ -218,7 +217,7 @@ class Publisher(Role, Generic[M]):
                 else:
                     self.publish(message, **fields)
             except ClosedError:
-                pass  # while it waited
+                pass  # the publisher was closed while this waited
 
         context = self._context
         timer = Timer(context.clock, context.spawn, context.user_error, period, publish)
@@ -226,7 +225,7 @@ class Publisher(Role, Generic[M]):
         return timer
 
     async def drain(self, *, timeout: float | None = None) -> None:
-        """Wait until the operating system has taken all that was published.
+        """Wait until the operating system has taken everything published so far.
 
         Raises :class:`TimeoutError` after ``timeout`` seconds, and
         :class:`~aioros1.ClosedError`.
@@ -262,7 +261,7 @@ class Publisher(Role, Generic[M]):
             try:
                 msg.header.seq = seq
             except AttributeError:
-                pass  # no header: told by what encodes it
+                pass  # no header: the encoder raises
         return self._frame(msg)
 
     def _require_room(self) -> None:
@@ -283,7 +282,7 @@ class Publisher(Role, Generic[M]):
 
 
 def _frame_encoder(cls: type[Message]) -> Callable[[Any], Frame]:
-    """What makes the frame of a message: in parts, where copying it would cost more."""
+    """Return the encoder from messages to frames: in parts, where copying would cost more."""
     codec = codec_of(cls)
     if not codec.has_bulk:
         return codec.frame

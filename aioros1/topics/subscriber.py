@@ -38,7 +38,7 @@ Callback = Callable[[Any], object] | Callable[[Any], Awaitable[object]]
 @public
 @dataclass(frozen=True, slots=True)
 class MessageEvent(Generic[M]):
-    """A message with what came along with it."""
+    """A message, its sender and its time of receipt."""
 
     message: M
     """The message itself."""
@@ -54,16 +54,16 @@ class MessageEvent(Generic[M]):
 class Subscriber(Role, Generic[M]):
     """Receives messages of a topic; made by :meth:`aioros1.Node.subscribe`.
 
-    It has one queue, filled by the publishers' connections and emptied by whoever
-    iterates or calls :meth:`get`, :meth:`get_nowait`; each message is handed out once.
-    Messages are decoded when they are taken, so one that is dropped costs nothing. One
-    that cannot be decoded is logged, counted in ``stats.errors`` and skipped.
+    It has one queue. The publishers' connections fill it, and you empty it by iterating or
+    with :meth:`get` and :meth:`get_nowait`; each message is handed out once. Messages are
+    decoded when you take them, so a dropped message costs nothing. A message that cannot be
+    decoded is logged, counted in ``stats.errors`` and skipped.
 
-    With a callback there is nothing to iterate. A plain function is called where a message
-    arrives, and nothing is queued. A coroutine function is awaited message by message, in
-    order, in a task of the node, with the queue in front of it. What it raises is treated as
-    ``on_error`` of the node says. Closing the subscriber from within is allowed: no further
-    message is handed over then, and an ``async def`` callback runs to its end.
+    With a callback there is nothing to iterate. A plain function is called as soon as a
+    message arrives, without the queue. A coroutine function takes messages from the queue
+    and is awaited for each, in order, in a task of the node. ``on_error`` of the node decides
+    what happens to its exceptions. A callback may close the subscriber: it gets no further
+    messages then, and an ``async def`` callback runs to its end.
     """
 
     kind = "subscriber"
@@ -78,17 +78,17 @@ class Subscriber(Role, Generic[M]):
     ) -> None:
         super().__init__(context, subscription.name)
         self.options = options
-        """How it was opened."""
+        """The options it was opened with."""
         self.message_class = message_class
         """The class of its messages; None for a subscriber to any type."""
         self.callback = callback
-        """What is called with each message; None if they are to be taken."""
+        """The callback for each message; None if you take the messages yourself."""
         self._subscription = subscription
         self._md5sum = "*" if message_class is None else message_class._md5sum
         self._decode: Decoder = decoder_for(
             message_class, context.peer_definitions, raw=options.raw, views=options.views
         )
-        # Where there is nothing to choose, the codec itself: a call less for each message.
+        # The codec itself where there is no choice, which saves a call for each message.
         self._decode_bytes: Callable[[bytes, int, int], Any] | None = None
         if message_class is not None and not options.raw and not options.views:
             self._decode_bytes = codec_of(message_class).decode
@@ -96,14 +96,14 @@ class Subscriber(Role, Generic[M]):
         self._newest: Received | None = None
         self._arrived = Waiters()
         self._on_arrival: tuple[Callable[[], object], ...] = ()
-        # With overflow="block": what was read from a socket before it could be paused,
-        # in order, and how far into it we are.
+        # With overflow="block": frames read from a socket before it could be paused, in
+        # order, and how many of them have been handled.
         self._backlog: deque[tuple[IncomingLink, list[Received], int]] = deque()
         self._awaits = callback is not None and _is_coroutine_function(callback)
         self._at_once = None if self._awaits else callback
 
     def _begin(self) -> None:
-        """It is open: have messages taken, if that is not left to the user."""
+        """Start the task for a coroutine callback, once the subscriber is open."""
         if self._awaits:
             self._context.spawn(self._take_all, name=f"callback of subscriber {self.name}")
 
@@ -132,17 +132,17 @@ class Subscriber(Role, Generic[M]):
 
     @property
     def queued(self) -> int:
-        """Messages that wait to be taken, ``options.queue_size`` at most."""
+        """How many messages wait in the queue, ``options.queue_size`` at most."""
         return len(self._queue)
 
     @property
     def dropped(self) -> int:
-        """Messages dropped so far because the queue was full."""
+        """How many messages were dropped so far because the queue was full."""
         return self.stats.dropped
 
     @property
     def next_received(self) -> Time | None:
-        """When the message that is taken next was received; None while none waits."""
+        """When the next message in the queue was received; None while the queue is empty."""
         if not self._queue and self._backlog:
             self._refill()
         return Time.from_nsec(self._queue[0][0].received) if self._queue else None
@@ -151,7 +151,7 @@ class Subscriber(Role, Generic[M]):
     def latest(self) -> M | None:
         """The newest message received, taken from the queue or not; None before the first.
 
-        Raises :class:`~aioros1.DeserializationError` if that cannot be decoded.
+        Raises :class:`~aioros1.DeserializationError` if it cannot be decoded.
         """
         if self._newest is None:
             return None
@@ -160,7 +160,7 @@ class Subscriber(Role, Generic[M]):
 
     @property
     def latest_event(self) -> MessageEvent[M] | None:
-        """The same with the time of receipt and the sender."""
+        """The same as :attr:`latest`, with the time of receipt and the sender."""
         return None if self._newest is None else self._event(self._newest)
 
     async def wait_for_publishers(self, n: int = 1, *, timeout: float | None = None) -> None:
@@ -176,7 +176,7 @@ class Subscriber(Role, Generic[M]):
                 self._check_open()
 
     async def wait_for_messages(self, n: int = 1, *, timeout: float | None = None) -> None:
-        """Wait until ``n`` messages are in the queue, and take none of them.
+        """Wait until ``n`` messages are in the queue, without taking any.
 
         Raises :class:`ValueError` for more than ``queue_size``, :class:`TimeoutError` after
         ``timeout`` seconds, and :class:`~aioros1.ClosedError`.
@@ -198,17 +198,17 @@ class Subscriber(Role, Generic[M]):
                 self._check_open()
 
     def add_arrival_callback(self, function: Callable[[], object]) -> None:
-        """Call ``function()`` whenever messages have come into the queue, and when the
-        subscriber is closed.
+        """Call ``function()`` whenever messages enter the queue, and when the subscriber is
+        closed.
 
-        It is called in the event loop, where the messages arrive: it has to return soon, and
-        must not raise. It is for who waits for several subscribers at a time.
+        The event loop calls it as messages arrive: it has to return soon and must not raise.
+        Use it to wait for several subscribers at a time.
         """
         self._context.check_loop()
         self._on_arrival += (function,)
 
     def remove_arrival_callback(self, function: Callable[[], object]) -> None:
-        """Call it no more. Does nothing for a function that was not added."""
+        """Stop calling ``function``. Does nothing if it was not added."""
         self._on_arrival = tuple(each for each in self._on_arrival if each != function)
 
     # taking messages
@@ -243,10 +243,10 @@ class Subscriber(Role, Generic[M]):
                 raise StopAsyncIteration
 
     async def get(self, *, timeout: float | None = None) -> M:
-        """The next message; waits for one.
+        """Wait for the next message and take it.
 
         Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`. Nothing is lost when it is cancelled.
+        :class:`~aioros1.ClosedError`. Cancelling it loses no message.
         """
         if timeout is not None:
             async with deadline(timeout, f"subscriber {self.name}: no message came"):
@@ -267,7 +267,7 @@ class Subscriber(Role, Generic[M]):
                 return message
 
     def get_nowait(self) -> M:
-        """The next message. Raises :class:`asyncio.QueueEmpty` if none has come."""
+        """Take the next message. Raises :class:`asyncio.QueueEmpty` if there is none."""
         self._check_open()
         self._check_queued()
         while (item := self._take()) is not None:
@@ -280,7 +280,7 @@ class Subscriber(Role, Generic[M]):
         raise asyncio.QueueEmpty(f"subscriber {self.name}: no message has come")
 
     def peek(self) -> MessageEvent[M] | None:
-        """The message that is taken next, which stays in the queue; None while none waits."""
+        """Look at the next message without taking it; None while the queue is empty."""
         self._check_queued()
         if not self._queue and self._backlog:
             self._refill()
@@ -293,7 +293,7 @@ class Subscriber(Role, Generic[M]):
         return None
 
     def events(self) -> AsyncIterator[MessageEvent[M]]:
-        """Iterate as the subscriber itself does, over :class:`MessageEvent`."""
+        """Iterate like the subscriber itself, but over :class:`MessageEvent` objects."""
         self._check_queued()
         self._context.check_iterator()
         return _Events(self)
@@ -307,7 +307,7 @@ class Subscriber(Role, Generic[M]):
         raise StopAsyncIteration
 
     async def _next_item(self) -> Received | None:
-        """Take a message; wait for one. None once the subscriber is closed."""
+        """Wait for a message and take it. None once the subscriber is closed."""
         while (item := self._take()) is None and self._is_open:
             await self._arrived.wait()
         return item
@@ -332,19 +332,18 @@ class Subscriber(Role, Generic[M]):
 
     def _skip(self, error: DeserializationError) -> None:
         self.stats.errors += 1
-        # The first one is worth a warning; a publisher that sends nothing else is not
-        # worth one for each.
+        # Warn once only: a publisher may send nothing but messages that cannot be decoded.
         log = self._context.log.warning if self.stats.errors == 1 else self._context.log.debug
         log("subscriber %s: a message was skipped: %s", self.name, error)
 
     # being filled
 
     def _offer(self, frames: list[Received]) -> None:
-        """Take frames from a connection; what does not fit is dropped, or kept waiting."""
+        """Take frames from a connection; drop or hold back what does not fit the queue."""
         batch, _, stop = frames[-1]
         link = batch.link
         if link.offer.md5sum != self._md5sum and "*" not in (self._md5sum, link.offer.md5sum):
-            return  # somebody else here takes any type, and this publisher's is not ours
+            return  # another subscriber takes any type, and this publisher's is not ours
         stats = self.stats
         stats.messages += len(frames)
         stats.bytes += stop - frames[0][1] + 4
@@ -377,7 +376,7 @@ class Subscriber(Role, Generic[M]):
             function()
 
     def _refill(self) -> None:
-        """Move what waits into the queue, and read on from connections that are done."""
+        """Move the backlog into the queue, and resume connections that have none left."""
         queue, backlog = self._queue, self._backlog
         room = self.options.queue_size - len(queue)
         while backlog and room:
@@ -426,8 +425,8 @@ class Subscriber(Role, Generic[M]):
                 self._failed(error)
 
     def _failed(self, error: BaseException) -> None:
-        """The user's code has raised; what becomes of that is an option of the node. Other
-        subscribers of the connection must not notice."""
+        """Handle an exception of the user's code by the node's ``on_error``, without
+        disturbing other subscribers of the connection."""
         reported = reportable(error)
         if reported is None:
             raise error
@@ -454,7 +453,7 @@ class Subscriber(Role, Generic[M]):
 
 
 class _Events(Generic[M]):
-    """What :meth:`Subscriber.events` returns; it draws from the subscriber's queue."""
+    """The iterator of :meth:`Subscriber.events`; it takes from the subscriber's queue."""
 
     def __init__(self, subscriber: Subscriber[M]) -> None:
         self._subscriber = subscriber
@@ -473,14 +472,14 @@ def _is_coroutine_function(callback: Callable[..., object]) -> bool:
     while isinstance(callback, functools.partial):
         callback = callback.func
     if isinstance(callback, type):
-        return False  # called, it gives an object, whatever can be done with that
-    call = getattr(callback, "__call__", None)  # noqa: B004 - of an object that is called
+        return False  # calling it makes an instance, awaitable or not
+    call = getattr(callback, "__call__", None)  # noqa: B004 - for a callable object
     return inspect.iscoroutinefunction(callback) or inspect.iscoroutinefunction(call)
 
 
 def _refuse(result: Awaitable[object]) -> None:
     if inspect.iscoroutine(result):
-        result.close()  # Python warns of one that is never awaited
+        result.close()  # Python warns about a coroutine that is never awaited
     raise TypeError(
         f"a plain function returned an awaitable, {result!r:.100}: nobody awaits it; make the "
         "callback `async def`"

@@ -1,9 +1,9 @@
 """A topic that a node receives: a connection to each of its publishers.
 
-The subscribers of one topic in one node share a :class:`Subscription`, and with it
-one connection per publisher. Each publisher is followed by a task of its own, so one
-that hangs delays nobody else: it asks the publisher how to connect, connects, and
-tries again, with growing delays, for as long as the master lists that publisher.
+The subscribers of one topic in one node share a :class:`Subscription`, and with it one
+connection per publisher. Each publisher has a task of its own, so one that hangs delays
+no other. The task asks the publisher how to connect, connects, and tries again, with
+growing delays, for as long as the master lists that publisher.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
 __all__ = ["OnReceived", "Subscription"]
 
 _GRACE = 1.0
-"""Seconds without a byte, after which a connection to a publisher that has left the
-master's list is closed. A publisher that ends closes its connections itself, and what
-it sent before is still on its way when the master announces that it is gone."""
+"""Seconds without a byte after which we close the connection to a publisher that the
+master no longer lists. A publisher that ends closes its connections itself, and its last
+messages may still be on their way when the master announces that it is gone."""
 
 
 class Subscribing(Protocol):
-    """A subscriber, as its subscription sees it."""
+    """What a subscription needs of a subscriber."""
 
     options: SubscriberOptions
 
@@ -54,7 +54,7 @@ class Subscribing(Protocol):
     def is_open(self) -> bool: ...
 
     def _offer(self, frames: list[Received]) -> None:
-        """Take frames, all of one link."""
+        """Take frames, all from one link."""
 
 
 class Subscription(Shared[Subscribing]):
@@ -71,9 +71,9 @@ class Subscription(Shared[Subscribing]):
     ) -> None:
         super().__init__(context, topic, table)
         self.changed = Waiters()
-        """Woken when a connection comes or goes."""
+        """Woken when a connection opens or closes."""
         self.on_received: OnReceived | None = None
-        """Is called with all that is received, before the subscribers get it."""
+        """Called with everything received, before the subscribers get it."""
         self._local = local
         self._followers: dict[str, _Follower] = {}
         self._links: tuple[IncomingLink, ...] = ()
@@ -81,7 +81,7 @@ class Subscription(Shared[Subscribing]):
 
     @property
     def type(self) -> str:
-        """What the subscribers agree on: ``*`` if none of them names a type."""
+        """The type that the subscribers agree on; ``*`` if none of them names one."""
         return next((sub.type for sub in self.roles if sub.type != "*"), "*")
 
     @property
@@ -101,8 +101,8 @@ class Subscription(Shared[Subscribing]):
         return any(cls is not None and cls._has_header for cls in classes)
 
     def check_type(self, message_class: builtins.type[Message]) -> None:
-        """Raise :class:`~aioros1.Md5MismatchError` for a type that the subscribers, of whom
-        each may take any, do not agree on."""
+        """Raise :class:`~aioros1.Md5MismatchError` for a type other than the subscribers'.
+        Subscribers to any type agree with every type."""
         for sub in self.roles:
             ours = sub.message_class
             if sub.is_open and ours is not None and ours._md5sum != message_class._md5sum:
@@ -113,7 +113,7 @@ class Subscription(Shared[Subscribing]):
                 )
 
     def wanted(self) -> TopicOffer:
-        """What a publisher is told when we connect."""
+        """The offer that we send to a publisher when we connect."""
         for sub in self.roles:
             if sub.type != "*":
                 return TopicOffer(self.name, sub.type, sub.md5sum, sub.definition)
@@ -122,11 +122,11 @@ class Subscription(Shared[Subscribing]):
     # the publishers
 
     def update(self, uris: Iterable[str]) -> None:
-        """Follow exactly these publishers, as the master has announced."""
+        """Follow exactly the publishers that the master has announced."""
         self._updates += 1
         if not self.roles:
             return
-        # A dict and not a set: the order of the master is kept, doubles are dropped.
+        # A dict, not a set: it keeps the master's order and drops duplicates.
         wanted = dict.fromkeys(uris)
         for uri in [uri for uri in self._followers if uri not in wanted]:
             self._followers[uri].leave()
@@ -141,23 +141,23 @@ class Subscription(Shared[Subscribing]):
             )
 
     def follower_ended(self, uri: str) -> None:
-        """Nothing comes from there any more."""
+        """Forget the follower of ``uri``, which has ended."""
         self._followers.pop(uri, None)
 
     def link_opened(self, link: IncomingLink) -> None:
-        """A publisher is connected."""
+        """Add the connection to a publisher."""
         self._links += (link,)
         self._context.connections.add(self.kind, link, link.info)
         self.changed.wake()
 
     def link_closed(self, link: IncomingLink) -> None:
-        """A publisher is not connected any more."""
+        """Remove the connection to a publisher."""
         self._links = tuple(other for other in self._links if other is not link)
         self._context.connections.remove(link, link.failure or "")
         self.changed.wake()
 
     def deliver(self, frames: list[Received]) -> None:
-        """Give frames, all of one link, to every subscriber."""
+        """Give frames, all from one link, to every subscriber."""
         link = frames[-1][0].link
         if link.offer.latching:
             link.latched = frames[-1]
@@ -169,14 +169,14 @@ class Subscription(Shared[Subscribing]):
     # the subscribers
 
     def _join(self, role: Subscribing) -> None:
-        """It gets what publishers that are connected already have latched."""
+        """Give a new subscriber what the connected publishers have latched."""
         super()._join(role)
         for link in self._links:
             if link.latched is not None:
                 role._offer([link.latched])
 
     def _part(self, role: Subscribing) -> None:
-        """With the last one go the connections."""
+        """Remove a subscriber; the last one takes the connections with it."""
         super()._part(role)
         self.changed.wake()
         if not self.roles:
@@ -198,7 +198,7 @@ class Subscription(Shared[Subscribing]):
         uris = await context.registrar.register_subscriber(
             self.name, self.type, context.address.uri
         )
-        # An announcement that overtook this answer is newer than it.
+        # An announcement that overtook this answer is newer.
         if updates == self._updates:
             self.update(uris)
 
@@ -229,23 +229,22 @@ class _Follower:
         self._complaint = ""
 
     def stay(self) -> None:
-        """The master lists the publisher, again perhaps: no reason to wait any longer."""
+        """Note that the master lists the publisher, perhaps again, and stop waiting."""
         self._leaving = False
         self._was_forgotten = False
         self._tries_local = True
         self._stir.set()
 
     def forgotten(self) -> None:
-        """We register again: the lists to come are of a master that was away, and is
-        perhaps another one, which knows only of those who have registered again as well.
+        """Judge by the connection alone whether the publisher lives, until it is listed again.
 
-        rospy and roscpp never do. Until the publisher is listed once more, it is the
-        connection alone that tells whether it is still there.
+        This node registers again because the master was away or is a new one. Such a master
+        lists only nodes that have registered again too, and rospy and roscpp never do.
         """
         self._was_forgotten = True
 
     def leave(self) -> None:
-        """The master lists the publisher no more."""
+        """Note that the master no longer lists the publisher."""
         self._leaving = True
         if self._link is None:
             self.cancel()
@@ -281,8 +280,8 @@ class _Follower:
         try:
             await self._until_closed(link)
         finally:
-            # Not for having connected alone: a publisher that accepts and then fails
-            # would be asked ten times a second for ever.
+            # Connecting alone does not count: we would ask a publisher that accepts and
+            # then fails ten times a second for ever.
             lasted = loop.time() - begin > backoff.longest
             if link.info.stats.messages or lasted:
                 backoff.reset()
@@ -295,7 +294,7 @@ class _Follower:
             self._complain(link.failure)
 
     async def _connect(self) -> IncomingLink:
-        """Connect as the publisher says; over TCP, if another way does not work."""
+        """Connect in the way the publisher chooses; fall back to TCP if that fails."""
         context, local = self._context, self._local
         offers = local.offers() if self._tries_local else []
         answer = await self._request_topic([["TCPROS"], *offers])
@@ -357,7 +356,7 @@ class _Follower:
         return link
 
     async def _until_closed(self, link: IncomingLink) -> None:
-        """Wait for the end of the connection, or of the publisher's place in the list."""
+        """Wait until the connection closes, or falls silent when the publisher is delisted."""
         while not link.is_closed:
             if not self._leaving or self._was_forgotten:
                 await self._stirred(None)
@@ -367,8 +366,8 @@ class _Follower:
                 break
 
     async def _stirred(self, timeout: float | None) -> bool:
-        """Wait until the master or the connection has news, at most ``timeout`` seconds;
-        whether there was any."""
+        """Wait at most ``timeout`` seconds for news from the master or the connection.
+        Returns whether there was any."""
         try:
             async with asyncio.timeout(timeout):
                 await self._stir.wait()
@@ -378,7 +377,7 @@ class _Follower:
         return True
 
     def _complain(self, text: str) -> None:
-        """Log what went wrong, once until it is something else or went well for a while."""
+        """Log a problem once, until it changes or all has gone well for a while."""
         if text != self._complaint:
             self._complaint = text
             self._context.log.warning(

@@ -20,9 +20,9 @@ __all__ = ["Topics"]
 
 
 class Topics:
-    """What a node publishes and subscribes to.
+    """The topics that a node publishes and subscribes to.
 
-    ``local`` are the ways past TCP on which subscriptions connect.
+    ``local`` holds the transports other than TCP that subscriptions may use.
     """
 
     def __init__(self, context: Context, local: LocalTransports) -> None:
@@ -43,7 +43,7 @@ class Topics:
         publication = self.publications.get(topic)
         if publication is not None:
             publication.check_type(message_class)
-        # One whose publishers are being closed may be used again, but for another type.
+        # A publication whose publishers are closing can be reused, but not for another type.
         if publication is None or publication.message_class._md5sum != message_class._md5sum:
             publication = Publication(context, topic, self.publications, message_class)
         publisher: Publisher[Any] = Publisher(context, publication, message_class, options)
@@ -83,7 +83,7 @@ class Topics:
             return await subscriber.get()
 
     async def serve(self, stream: Stream, server: Server) -> None:
-        """Serve the subscriber that has connected, whose header is ``server``'s.
+        """Serve a subscriber that has connected; ``server`` holds its header.
 
         Raises :class:`~aioros1.HandshakeError` and :class:`ConnectionError`.
         """
@@ -94,14 +94,14 @@ class Topics:
         await publication.serve(stream, server)
 
     def watch(self, on_received: OnReceived) -> None:
-        """Have a function called with all that is received on any topic."""
+        """Call ``on_received`` with everything received on any topic."""
         self._on_received = on_received
         for subscription in self.subscriptions.values():
             subscription.on_received = on_received
 
     def published(self, topic: str) -> Publication | None:
-        """The publication of a topic, from its first publisher until the master was told of
-        the end of the last."""
+        """The publication of a topic, from its first publisher until the last one is
+        unregistered at the master."""
         return self.publications.get(topic)
 
     def abort(self) -> None:

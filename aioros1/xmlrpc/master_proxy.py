@@ -27,7 +27,7 @@ class TopicType(NamedTuple):
 
 @public
 class SystemState(NamedTuple):
-    """Who does what: topic or service name to the names of the nodes."""
+    """All registrations: topic or service name to the names of the nodes."""
 
     publishers: dict[str, list[str]]
     """Topic to the nodes that publish it."""
@@ -61,9 +61,9 @@ class MasterProxy:
         return f"<MasterProxy of {self.uri} for {self.caller_id}>"
 
     async def call(self, method: str, *params: Any, read: Callable[[Any], T] = as_it_is) -> T:
-        """Any method of the master's; the caller id is put in front.
+        """Call any method of the master, with the caller id as the first parameter.
 
-        ``read`` makes what is returned of the value that the master answers.
+        ``read`` converts the value in the master's answer to what this returns.
         """
         params = (self.caller_id, *params)
         value = await call_triple(
@@ -97,7 +97,7 @@ class MasterProxy:
         return await self.call("getSystemState", read=_system_state)
 
     async def get_uri(self) -> str:
-        """The URI that the master knows itself by."""
+        """The URI that the master has for itself."""
         return await self.call("getUri", read=str)
 
     async def get_pid(self) -> int:
@@ -110,40 +110,40 @@ class MasterProxy:
         await self.get_pid()
         return time.perf_counter() - start
 
-    # registrations: roles make them; they are public for tools
+    # registrations: roles make them; these methods are public for tools
 
     async def register_publisher(self, topic: str, type: str, uri: str) -> list[str]:
-        """Announce a publisher; the URIs of the topic's subscribers."""
+        """Register a publisher; returns the URIs of the topic's subscribers."""
         return await self.call("registerPublisher", topic, type, uri, read=_strings)
 
     async def unregister_publisher(self, topic: str, uri: str) -> int:
-        """Take a publisher back; 1 if it was registered, else 0."""
+        """Unregister a publisher; returns 1 if it was registered, else 0."""
         return await self.call("unregisterPublisher", topic, uri, read=int)
 
     async def register_subscriber(self, topic: str, type: str, uri: str) -> list[str]:
-        """Announce a subscriber; the URIs of the topic's publishers."""
+        """Register a subscriber; returns the URIs of the topic's publishers."""
         return await self.call("registerSubscriber", topic, type, uri, read=_strings)
 
     async def unregister_subscriber(self, topic: str, uri: str) -> int:
-        """Take a subscriber back; 1 if it was registered, else 0."""
+        """Unregister a subscriber; returns 1 if it was registered, else 0."""
         return await self.call("unregisterSubscriber", topic, uri, read=int)
 
     async def register_service(self, service: str, service_uri: str, uri: str) -> None:
-        """Announce a provider at ``service_uri``, which is ``rosrpc://host:port``."""
+        """Register a provider at ``service_uri``, which is ``rosrpc://host:port``."""
         await self.call("registerService", service, service_uri, uri)
 
     async def unregister_service(self, service: str, service_uri: str) -> int:
-        """Take a provider back; 1 if it was registered, else 0."""
+        """Unregister a provider; returns 1 if it was registered, else 0."""
         return await self.call("unregisterService", service, service_uri, read=int)
 
     # parameters
 
     async def get_param(self, key: str) -> Any:
-        """The value of a parameter, or of all below it as a dict."""
+        """The value of a parameter, or everything below it as a dict."""
         return await self.call("getParam", key)
 
     async def set_param(self, key: str, value: Any) -> None:
-        """Set a parameter; a dict sets all below it."""
+        """Set a parameter; a dict sets everything below it."""
         await self.call("setParam", key, value)
 
     async def has_param(self, key: str) -> bool:
@@ -151,11 +151,11 @@ class MasterProxy:
         return await self.call("hasParam", key, read=bool)
 
     async def delete_param(self, key: str) -> None:
-        """Delete a parameter and all below it."""
+        """Delete a parameter and everything below it."""
         await self.call("deleteParam", key)
 
     async def search_param(self, key: str) -> str:
-        """The full name of the parameter that is found by going up the namespaces."""
+        """The full name of the parameter found by searching up the namespaces."""
         return await self.call("searchParam", key, read=str)
 
     async def get_param_names(self) -> list[str]:
@@ -163,16 +163,16 @@ class MasterProxy:
         return await self.call("getParamNames", read=_strings)
 
     async def subscribe_param(self, key: str, uri: str) -> Any:
-        """Ask for updates of ``key``; its value now, ``{}`` when it is not set."""
+        """Subscribe to updates of ``key``; returns its value now, ``{}`` when it is not set."""
         return await self.call("subscribeParam", uri, key)
 
     async def unsubscribe_param(self, key: str, uri: str) -> int:
-        """End :meth:`subscribe_param`; 1 if there was one, else 0."""
+        """End :meth:`subscribe_param`; returns 1 if ``key`` was subscribed to, else 0."""
         return await self.call("unsubscribeParam", uri, key, read=int)
 
 
 def topic_types(rows: Any) -> list[TopicType]:
-    """[[topic, type], ...] as it comes in several answers."""
+    """Convert the [[topic, type], ...] that several methods answer."""
     return [TopicType(*row) for row in rows]
 
 

@@ -27,21 +27,21 @@ T = TypeVar("T")
 
 @public
 class PublishConnection(NamedTuple):
-    """What was sent to one subscriber."""
+    """Counters of the connection to one subscriber."""
 
     connection_id: int
     """The id of the connection, unique within the node."""
     bytes_sent: int
-    """Bytes that were sent."""
+    """Bytes sent."""
     num_sent: int
-    """Messages that were sent."""
+    """Messages sent."""
     connected: bool
     """Whether the connection is open."""
 
 
 @public
 class PublishStats(NamedTuple):
-    """What was published on one topic."""
+    """Counters of one published topic."""
 
     topic: str
     """The topic."""
@@ -53,23 +53,23 @@ class PublishStats(NamedTuple):
 
 @public
 class SubscribeConnection(NamedTuple):
-    """What was received from one publisher."""
+    """Counters of the connection to one publisher."""
 
     connection_id: int
     """The id of the connection, unique within the node."""
     bytes_received: int
-    """Bytes that were received."""
+    """Bytes received."""
     num_received: int
-    """-1 when the node does not say; the documented answer has no such number."""
+    """Messages received; -1 when the node does not report them, as in the documented answer."""
     drop_estimate: int
-    """-1 when the node does not know, as the reference programs never do."""
+    """Messages dropped, estimated; -1 when unknown, as always from rospy and roscpp."""
     connected: bool
     """Whether the connection is open."""
 
 
 @public
 class SubscribeStats(NamedTuple):
-    """What was received on one topic."""
+    """Counters of one subscribed topic."""
 
     topic: str
     """The topic."""
@@ -79,10 +79,10 @@ class SubscribeStats(NamedTuple):
 
 @public
 class ServiceStats(NamedTuple):
-    """What the services of a node have done, in all."""
+    """Counters of all services of a node together."""
 
     num_requests: int
-    """Requests that were answered."""
+    """Requests answered."""
     bytes_received: int
     """Bytes of requests."""
     bytes_sent: int
@@ -98,7 +98,7 @@ class BusStats(NamedTuple):
     subscribe: list[SubscribeStats]
     """One row for each topic that the node receives."""
     service: ServiceStats | None
-    """None when the node does not say, as the reference programs do not."""
+    """None when the node does not report them; rospy and roscpp do not."""
 
 
 @public
@@ -112,7 +112,7 @@ class BusInfo(NamedTuple):
     direction: Literal["i", "o", "b"]
     """Whether messages come in, go out, or both."""
     transport: str
-    """``TCPROS``, or another transport that the node has."""
+    """``TCPROS``, or another transport of the node."""
     topic: str
     """The topic or service."""
     connected: bool
@@ -147,9 +147,9 @@ class NodeProxy:
         bare: bool = False,
         read: Callable[[Any], T] = as_it_is,
     ) -> T:
-        """Any method of the node's; the caller id is put in front.
+        """Call any method of the node, with the caller id as the first parameter.
 
-        ``read`` makes what is returned of the value that the node answers; with ``bare``
+        ``read`` converts the value in the node's answer to what this returns; with ``bare``
         the answer need not be ``[code, status, value]``.
         """
         params = (self._caller_id, *params)
@@ -172,8 +172,7 @@ class NodeProxy:
     async def shutdown(self, reason: str = "") -> None:
         """Ask the node to end.
 
-        rospy obeys without answering, so that a connection that is lost instead of an
-        answer is as good as one.
+        rospy obeys without answering, so a lost connection counts as an answer.
         """
         try:
             await self.call("shutdown", reason)
@@ -194,7 +193,7 @@ class NodeProxy:
         return await self.call("getPublications", read=topic_types)
 
     async def request_topic(self, topic: str, protocols: Sequence[Sequence[Any]]) -> list[Any]:
-        """Ask a publisher how to connect; its choice among ``protocols``, with parameters."""
+        """Ask a publisher how to connect; returns its choice of ``protocols``, with parameters."""
         return await self.call("requestTopic", topic, protocols, read=_list)
 
     async def ping(self) -> float:
@@ -219,7 +218,7 @@ def _bus_stats(answer: Sequence[Any]) -> BusStats:
     return BusStats(
         [_published(row) for row in publish],
         [SubscribeStats(topic, [_received(row) for row in rows]) for topic, rows in subscribe],
-        # rospy and roscpp give nothing here.
+        # rospy and roscpp report nothing here.
         ServiceStats(*service) if isinstance(service, list) and len(service) == 3 else None,
     )
 
