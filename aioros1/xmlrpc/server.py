@@ -59,6 +59,10 @@ _LOG = logging.getLogger("aioros1.xmlrpc")
 _PATHS = frozenset({"/", "/RPC2"})
 _YIELD_EVERY = 32
 
+_ACCEPTING = 3
+"""Iterations of the event loop until an accepted connection has its protocol, at most: the
+task of asyncio that makes the transport, and a callback of that."""
+
 
 @dataclass(frozen=True, slots=True)
 class Reply:
@@ -172,6 +176,10 @@ class XmlRpcServer:
             return
         if self._sweeper is not None:
             self._sweeper.cancel()
+        # asyncio tells a protocol of a connection it has just accepted some iterations of the
+        # event loop later. Until then nobody could close that connection.
+        for _ in range(_ACCEPTING):
+            await asyncio.sleep(0)
         http.pre_shutdown()
         # aiohttp loses track of the tasks of a connection whose peer has gone, so they are
         # ended here.

@@ -7,6 +7,7 @@ import contextlib
 import gzip
 import logging
 import re
+import socket
 from collections.abc import AsyncIterator, Callable, Mapping
 from typing import Any
 
@@ -494,3 +495,19 @@ async def test_a_server_starts_once_and_says_why_it_cannot() -> None:
             await other.start("127.0.0.1", server.port)
         await other.close()
     await XmlRpcServer({}).close()
+
+
+async def test_a_connection_that_is_just_being_accepted_is_closed_too() -> None:
+    """The kernel has it, and asyncio begins to take it, when the server closes."""
+    server = XmlRpcServer({})
+    await server.start("127.0.0.1")
+    with contextlib.ExitStack() as stack:
+        clients = [stack.enter_context(socket.socket()) for _ in range(20)]
+        for client in clients:
+            client.connect(("127.0.0.1", server.port))  # never waits: the kernel accepts
+        await asyncio.sleep(0)  # the loop sees them
+        await server.close()
+        for client in clients:
+            client.settimeout(20)
+            with contextlib.suppress(ConnectionResetError):
+                assert await asyncio.to_thread(client.recv, 1) == b""
