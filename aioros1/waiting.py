@@ -5,10 +5,10 @@ from __future__ import annotations
 import asyncio
 from asyncio import _get_running_loop
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Self
 
-__all__ = ["Deadlines", "Mutex", "Waiters", "deadline", "wait_for_any"]
+__all__ = ["Deadlines", "Mutex", "Waiters", "deadline"]
 
 
 class Waiters:
@@ -75,18 +75,6 @@ class Waiters:
         async with deadline(timeout, what):
             while not predicate():
                 await self.wait()
-
-
-async def wait_for_any(waiters: Sequence[Waiters]) -> None:
-    """Wait for the next :meth:`Waiters.wake` of any of ``waiters``."""
-    future = asyncio.get_running_loop().create_future()
-    for each in waiters:
-        each._futures.add(future)
-    try:
-        await future
-    finally:
-        for each in waiters:
-            each._futures.discard(future)
 
 
 def _resolve(future: asyncio.Future[None]) -> None:

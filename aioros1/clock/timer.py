@@ -31,7 +31,7 @@ class Timer:
         self,
         clock: Clock,
         spawn: Spawn,
-        on_error: Callable[[Exception, str], object],
+        on_error: Callable[[BaseException, str], object],
         period: float | Duration,
         callback: Callable[[Time], Any] | Callable[[Time], Awaitable[Any]],
         *,
@@ -61,7 +61,7 @@ class Timer:
                 result = self._callback(now)
                 if asyncio.iscoroutine(result) or asyncio.isfuture(result):
                     await result
-            except Exception as error:  # from the user's code; ``on_error`` decides
+            except BaseException as error:  # of the user's code
                 self._on_error(error, "the callback of a timer")
             if self._oneshot:
                 return

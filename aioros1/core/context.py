@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from aioros1 import names
 from aioros1.core.connections import Connections
-from aioros1.core.user_errors import is_end
+from aioros1.core.user_errors import is_end, reportable
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, Event
 
@@ -173,10 +173,15 @@ class Context:
         """Log an internal or unexpected error."""
         self.log.error("%s failed: %r", what, error, exc_info=error)
 
-    def user_error(self, error: Exception, what: str) -> None:
+    def user_error(self, error: BaseException, what: str) -> None:
         """Handle an exception from the user's code as the node's ``on_error`` says.
 
-        Once the node is closing, a closed node or role no longer counts as an error.
+        Once the node is closing, a closed node or role no longer counts as an error. Raises
+        ``error`` if it has to go on: a cancellation of the running task, or the end of the
+        program.
         """
-        if self.is_open or not is_end(error):
-            self._user_errors.handle(error, what)
+        reported = reportable(error)
+        if reported is None:
+            raise error
+        if self.is_open or not is_end(reported):
+            self._user_errors.handle(reported, what)

@@ -20,7 +20,7 @@ from aioros1.core.registrations import AT_ONCE, Registrations
 from aioros1.core.role import Role
 from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
-from aioros1.core.user_errors import UserErrors, reportable
+from aioros1.core.user_errors import UserErrors
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
@@ -432,10 +432,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         try:
             await coro
         except BaseException as error:
-            reported = reportable(error)
-            if reported is None:
-                raise
-            self._context.user_error(reported, what)
+            self._context.user_error(error, what)
 
     def handle_error(self, error: Exception, what: str) -> None:
         """Handle an exception that ``what`` raised as ``on_error`` says.

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1._public import public
 from aioros1.core.role import Role
-from aioros1.core.user_errors import reportable
 from aioros1.errors import DeserializationError
 from aioros1.idl.codec import codec_of
 from aioros1.net.topic_links import IncomingLink, Received
@@ -425,12 +424,8 @@ class Subscriber(Role, Generic[M]):
                 self._failed(error)
 
     def _failed(self, error: BaseException) -> None:
-        """Handle an exception of the user's code by the node's ``on_error``, without
-        disturbing other subscribers of the connection."""
-        reported = reportable(error)
-        if reported is None:
-            raise error
-        self._context.user_error(reported, f"the callback of subscriber {self.name}")
+        """Handle an exception of the callback; other subscribers must not notice it."""
+        self._context.user_error(error, f"the callback of subscriber {self.name}")
 
     # the end
 

@@ -97,6 +97,25 @@ async def test_a_cancellation_that_was_not_ours_is_an_error(make_node):
     assert node.is_open
 
 
+async def test_a_timer_goes_on_after_a_cancellation_that_was_not_its_own(make_node):
+    errors, ticks = [], asyncio.Queue()
+    node = await make_node(on_error=errors.append)
+
+    async def tick(now):
+        ticks.put_nowait(now)
+        other = asyncio.create_task(asyncio.sleep(3600))
+        other.cancel()
+        await other
+
+    timer = node.timer(0.001, tick)
+    async with asyncio.timeout(20):
+        for _ in range(3):
+            await ticks.get()
+    timer.cancel()
+    assert all(isinstance(error.__cause__, asyncio.CancelledError) for error in errors)
+    assert len(errors) >= 2
+
+
 @pytest.mark.parametrize("in_a_group", [False, True])
 async def test_the_end_of_the_node_is_no_error_of_a_task(master, in_a_group):
     async def wait(node):
