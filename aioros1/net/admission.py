@@ -36,7 +36,7 @@ class Admission:
         per_host: int,
         log: logging.Logger | logging.LoggerAdapter[Any],
     ) -> None:
-        self._what = what
+        self.what = what
         self._allow = allow if allow is not None else AllowList(None)
         self._total_name, self._total = total
         self._per_host = per_host
@@ -50,18 +50,18 @@ class Admission:
         self.forbidden = 0
         """Connections refused so far because their address is not allowed."""
 
-    def enter(self, transport: asyncio.BaseTransport) -> str | None:
-        """Decide about a new connection.
+    def enter(self, family: int | None = None, peername: Any = None) -> str | None:
+        """Decide about a new connection from ``peername``, as ``accept()`` gives it with the
+        ``family`` of the socket. A connection within the process has neither.
 
         Returns the host it comes from, which :meth:`leave` needs when it ends, or ``None``
         if you must close it at once.
         """
         host = THIS_HOST
-        sock = transport.get_extra_info("socket")
-        if sock is not None and sock.family in _INTERNET:
+        if family in _INTERNET:
             try:
-                address = parse_address(transport.get_extra_info("peername")[0])
-            except (OSError, TypeError, ValueError):
+                address = parse_address(peername[0])
+            except (TypeError, ValueError):
                 return None  # the peer has gone already, and its address is unknown
             host = str(address)
             if address not in self._allow:
@@ -95,5 +95,5 @@ class Admission:
     def _tell(self, host: str, why: str) -> None:
         if self._seldom(host, asyncio.get_running_loop().time()):
             self._log.warning(
-                "refused a connection from %s to %s: %s", host or "this host", self._what, why
+                "refused a connection from %s to %s: %s", host or "this host", self.what, why
             )

@@ -15,6 +15,7 @@ from typing import Any, Literal, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError
+from aioros1.net.accepting import ListeningSocket
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.connecting import connect as connect_tcp
@@ -223,24 +224,23 @@ class Listener:
         self._serve = serve
         self._spawn = spawn
         self._timeouts = timeouts
+        self._log = log if log is not None else _LOG
         self.admission = Admission(
             "the TCPROS port",
             allow=allow,
             total=("connections", limits.connections),
             per_host=limits.connections_per_host,
-            log=log if log is not None else _LOG,
+            log=self._log,
         )
-        self._servers: list[asyncio.Server] = []
+        self._sockets: list[ListeningSocket] = []
         self.port = 0
 
     async def start(self, host: str, port: int) -> None:
         """Listen. Raises :class:`OSError` if the address is in use, or not of this machine."""
-        sockets = bind_sockets(host, port)
-        self.port = sockets[0].getsockname()[1]
         # One socket: bind_sockets gives several only for a name with several addresses.
-        await self._listen(
-            await asyncio.start_server(self._accepted, sock=sockets[0], start_serving=False)
-        )
+        sock = bind_sockets(host, port)[0]
+        self.port = sock.getsockname()[1]
+        self._listen(sock)
 
     async def listen_unix(self, address: str) -> None:
         """Listen on a Unix socket as well. Raises :class:`OSError`."""
@@ -249,29 +249,34 @@ class Listener:
             sock.setblocking(False)
             sock.bind(address)
             sock.listen(512)
-            server = await asyncio.start_unix_server(self._accepted, sock=sock, start_serving=False)
         except BaseException:
             sock.close()
             raise
-        await self._listen(server)
+        self._listen(sock)
 
-    async def _listen(self, server: asyncio.Server) -> None:
-        # Not in one step with creating it: starting to serve lets other tasks run, and if
-        # this one was cancelled then, nobody would have the server to close it.
-        self._servers.append(server)
-        await server.start_serving()
+    def _listen(self, sock: socket.socket) -> None:
+        self._sockets.append(
+            ListeningSocket(sock, self._new_protocol, admission=self.admission, log=self._log)
+        )
 
     def new_protocol(self) -> asyncio.StreamReaderProtocol:
-        """Make a protocol for our side of a connection that needs no socket."""
+        """Make a protocol for our side of a connection that needs no socket.
+
+        Raises :class:`ConnectionRefusedError` if there are too many connections.
+        """
+        host = self.admission.enter()
+        if host is None:
+            raise ConnectionRefusedError("the node has too many connections")
+        return self._new_protocol(host)
+
+    def _new_protocol(self, host: str) -> asyncio.StreamReaderProtocol:
         loop = asyncio.get_running_loop()
         reader = asyncio.StreamReader(loop=loop)
-        return asyncio.StreamReaderProtocol(reader, self._accepted, loop=loop)
+        return asyncio.StreamReaderProtocol(reader, partial(self._accepted, host), loop=loop)
 
-    def _accepted(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        host = self.admission.enter(writer.transport)
-        if host is None:
-            writer.transport.abort()
-            return
+    def _accepted(
+        self, host: str, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
+    ) -> None:
         try:
             stream = Stream(reader, writer, self._timeouts)
             self._spawn(partial(self._run, host), stream, name=f"tcpros {stream.peer}")
@@ -287,8 +292,13 @@ class Listener:
 
     def close(self) -> None:
         """Stop listening; open connections stay open."""
-        while self._servers:
-            self._servers.pop().close()
+        for sock in self._sockets:
+            sock.close()
+
+    async def wait_closed(self) -> None:
+        """Wait until each connection that was being accepted is served or closed."""
+        while self._sockets:
+            await self._sockets.pop().wait_closed()
 
 
 def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
