@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from soak.scenario import Scenario
 from soak.scenarios import (
+    chaos,
     churn,
     cut_connections,
     lossless,
@@ -16,6 +17,7 @@ from soak.scenarios import (
 __all__ = ["SCENARIOS"]
 
 MODULES = (
+    chaos,
     master_restarts,
     cut_connections,
     lossless,
