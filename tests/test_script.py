@@ -59,13 +59,13 @@ async def start(code: str, master_uri: str, *words: str) -> asyncio.subprocess.P
 
 @pytest.mark.asyncio(loop_factories=["asyncio"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-async def test_a_signal_closes_the_node_and_main_returns(master, number):
+async def test_a_signal_cancels_main_and_closes_the_node(master, number):
     process = await start(TALKER, master.uri, "__ns:=/robot")
     assert process.stdout is not None
     assert await process.stdout.readline() == b"ready /robot/talker\n"
     process.send_signal(number)
     output, errors = await asyncio.wait_for(process.communicate(), 40)
-    assert (output, errors, process.returncode) == (b"ended True\n", b"", 0)
+    assert (output, errors, process.returncode) == (b"ended None\n", b"", 0)
 
 
 @pytest.mark.asyncio(loop_factories=["asyncio"])

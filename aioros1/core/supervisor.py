@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Awaitable, Callable
 from typing import Any, Literal, Protocol
 
+from aioros1.core.user_errors import described, leave_loop, reportable
 from aioros1.errors import ClosedError
 
 __all__ = ["Life", "State", "Supervisor"]
@@ -20,6 +21,9 @@ class Life(Protocol):
 
     async def begin(self) -> None:
         """Start. The node is usable when this returns."""
+
+    async def wind_down(self) -> None:
+        """Let the user's code end, while everything can still be used."""
 
     async def finish(self) -> None:
         """Tell others that the node ends, as far as they respond."""
@@ -48,6 +52,7 @@ class Supervisor:
         self._group: asyncio.TaskGroup | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
+        self._is_closing: asyncio.Event = asyncio.Event()
         self.reason: str | None = None
         """Why the node ends; None until something ends it."""
 
@@ -78,10 +83,10 @@ class Supervisor:
             await asyncio.wait({self._task})
 
     async def pause(self, seconds: float) -> None:
-        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the node starts to end."""
+        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the node is closing."""
         try:
             async with asyncio.timeout(seconds):
-                await self._end.wait()
+                await self._is_closing.wait()
         except TimeoutError:
             return
         raise ClosedError(f"{self._name} is closed ({self.reason})")
@@ -96,17 +101,28 @@ class Supervisor:
         # Takes a function: Python would warn of a coroutine that is never started.
         if self._group is None:
             raise ClosedError(f"{self._name} is closed")
-        return self._group.create_task(self._guarded(function, args, name), name=name)
+        return self._group.create_task(self.guard(function, args, name), name=name)
 
-    async def _guarded(
+    async def guard(
         self, function: Callable[..., Awaitable[Any]], args: tuple[Any, ...], name: str
     ) -> None:
+        """Await ``function(*args)``, and report its exceptions: one broken task must not stop
+        the others, nor end without a word.
+
+        Only a cancellation of the task passes. The end of the program goes to the event loop
+        itself: in a task it would cancel all others of the group.
+        """
         try:
             await function(*args)
         except ClosedError:
             pass  # it used something that closed meanwhile
-        except Exception as error:  # one broken task must not stop the others
-            self._report(error, name)
+        except (SystemExit, KeyboardInterrupt) as error:
+            leave_loop(error)
+        except BaseException as error:
+            reported = reportable(error)
+            if reported is None:
+                raise
+            self._report(reported, name)
 
     async def _run(self, begun: asyncio.Future[None]) -> None:
         try:
@@ -116,8 +132,11 @@ class Supervisor:
                     if not begun.done():
                         begun.set_result(None)
                     await self._end.wait()
+                    await self._life.wind_down()
+                    self._is_closing.set()
                     await self._life.finish()
                 finally:
+                    self._is_closing.set()
                     self._group = None
                     await self._life.free()
                 raise _TheEndError
@@ -125,7 +144,7 @@ class Supervisor:
             pass
         except* Exception as errors:
             error = errors.exceptions[0] if len(errors.exceptions) == 1 else errors
-            self.end(str(error))
+            self.end(described(error))
             if begun.done():
                 self._report(error, self._name)
             else:

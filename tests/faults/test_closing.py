@@ -374,18 +374,48 @@ async def test_aborting_ends_everything_at_once(make_node):
     assert node.connections == ()
 
 
-async def test_closing_the_node_from_its_own_service_handler_ends(make_node):
-    node = await make_node(timeouts=aioros1.Timeouts(close=0.2))
+@pytest.mark.parametrize("what", ["node", "provider"])
+@pytest.mark.parametrize("how", ["itself", "in a task", "by a signal handler"])
+async def test_a_service_handler_closes_its_own_node_or_provider(make_node, what, how):
+    """It does not wait for itself, and its call is answered."""
+    # Long enough for the test to fail if anybody waits for that.
+    node = await make_node(timeouts=aioros1.Timeouts(close=PATIENCE * 2))
+    closing = set()
 
     async def handler(request):
-        await node.close()
+        role = node if what == "node" else provider
+        if how == "itself":
+            await role.close()
+        elif how == "in a task":
+            await asyncio.gather(role.close(), asyncio.sleep(0))
+        else:
+            closing.add(asyncio.create_task(role.close()))
+            await asyncio.sleep(0)
+        return {"success": True}
 
-    await node.advertise_service("end", SetBool, handler)
+    provider = await node.advertise_service("end", SetBool, handler)
     async with dialled(node, caller_header("/end"), flip_request(True)) as wire:
         await wire.read_header()
+        assert (await wire.answer())[0] == 1
         async with asyncio.timeout(PATIENCE):
-            await node.wait_closed()
-        assert await wire.is_closed()
+            assert await wire.is_closed()
+            await provider.close()
+            await (node.wait_closed() if what == "node" else provider.close())
+            await asyncio.gather(*closing)
+    assert not provider.is_open
+
+
+async def test_a_service_handler_can_offer_its_service_again(make_node):
+    node = await make_node()
+
+    async def handler(request):
+        await provider.close()
+        again = await node.advertise_service("flip", SetBool, lambda _: {"message": "new"})
+        return {"message": again.name}
+
+    provider = await node.advertise_service("flip", SetBool, handler)
+    assert (await node.call("flip", SetBool, timeout=PATIENCE)).message == "/flip"
+    assert (await node.call("flip", SetBool, timeout=PATIENCE)).message == "new"
 
 
 @pytest.mark.parametrize("filter_", ["always", "error"])
