@@ -69,16 +69,6 @@ async def test_a_signal_cancels_main_and_closes_the_node(master, number):
 
 
 @pytest.mark.asyncio(loop_factories=["asyncio"])
-async def test_a_main_that_does_not_end_is_cancelled(master):
-    process = await start(STUBBORN, master.uri)
-    assert process.stdout is not None
-    await process.stdout.readline()
-    process.send_signal(signal.SIGINT)
-    output, errors = await asyncio.wait_for(process.communicate(), 40)
-    assert (output, errors) == (b"cancelled\nended None\n", b"")
-
-
-@pytest.mark.asyncio(loop_factories=["asyncio"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 async def test_a_signal_while_the_node_waits_for_its_master(number):
     """One that takes the connection, and never answers."""
@@ -96,15 +86,6 @@ async def test_a_signal_while_the_node_waits_for_its_master(number):
         writer.close()
     finally:
         server.close()
-
-
-@pytest.mark.asyncio(loop_factories=["asyncio"])
-async def test_what_main_raises_is_raised(master):
-    code = "import aioros1\nasync def main(node): raise LookupError('mine')\naioros1.run(main, 'x')"
-    process = await start(code, master.uri)
-    _, errors = await asyncio.wait_for(process.communicate(), 40)
-    assert process.returncode == 1
-    assert errors.decode().rstrip().endswith("LookupError: mine")
 
 
 @pytest.mark.asyncio(loop_factories=["asyncio"])

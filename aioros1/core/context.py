@@ -180,14 +180,17 @@ class Context:
     def user_error(self, error: BaseException, what: str) -> None:
         """Handle an exception from the user's code as the node's ``on_error`` says.
 
-        Once the node was told to end, a closed node or role no longer counts as an error. Raises
-        ``error`` if it has to go on: a cancellation of the running task, or the end of the
-        program.
+        Once the node was told to end, a closed node or role no longer counts as an error. The
+        end of the program goes to the event loop. Raises ``error`` if it cancels the running
+        task.
         """
         reported = reportable(error)
-        if reported is None:
+        if isinstance(error, (SystemExit, KeyboardInterrupt)):
+            # Not raised here: some event loops drop what a callback of a transport raises.
+            leave_loop(error)
+        elif reported is None:
             raise error
-        if self.close_reason is None or not is_end(reported):
+        elif self.close_reason is None or not is_end(reported):
             self._user_errors.handle(reported, what)
 
     def handler_error(self, error: BaseException, what: str) -> BaseException:

@@ -67,19 +67,28 @@ class WindingDown:
         """Let everything end. Each step takes ``seconds`` at most."""
         if self._seconds is not None:
             seconds = self._seconds
-        await self._wait(self._end_tasks(), seconds, "tasks of the node")
+        if not await self._wait(self._end_tasks(), seconds):
+            names = ", ".join(task.get_name() for task in self._tasks.running("told"))
+            self._log_late(names or "the block of the node")
         self._has_called = True
         await self._call_all(seconds)
-        await self._wait(self._end_roles(), seconds, "calls of handlers and callbacks")
+        if not await self._wait(self._end_roles(), seconds):
+            self._log_late("a service handler or callback")
 
-    async def _wait(self, step: Awaitable[None], seconds: float, what: str) -> None:
+    async def _wait(self, step: Awaitable[None], seconds: float) -> bool:
+        """Return whether ``step`` ends within ``seconds``."""
         try:
             async with asyncio.timeout(self._left(seconds)) as self._limit:
                 await step
         except TimeoutError:
-            self._context.log.warning("closing, although %s have not ended", what)
+            return False
+        else:
+            return True
         finally:
             self._limit = None
+
+    def _log_late(self, what: str) -> None:
+        self._context.log.warning("closing, although this has not ended in time: %s", what)
 
     def _left(self, seconds: float) -> float:
         return seconds if self._seconds is None else min(seconds, self._seconds)
@@ -106,8 +115,8 @@ class WindingDown:
             task = self._tasks.spawn(
                 self._call, callback, name="callback of on_shutdown", until="closed"
             )
-            await self._wait(_end_of(task), max(0.0, end - loop.time()), repr(callback))
-            if not task.done():
+            if not await self._wait(_end_of(task), max(0.0, end - loop.time())):
+                self._log_late(f"{callback!r} of on_shutdown")
                 task.cancel()
                 await asyncio.wait((task,), timeout=_LAST)
 

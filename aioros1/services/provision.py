@@ -161,11 +161,11 @@ class Provision(Shared[Providing]):
         return self._context.handler_error(error, f"the handler of service {self.name}")
 
     async def end_running(self) -> None:
-        """Let handlers that run return, and answer no further calls, if there are any."""
-        if self.running and self.provider is not None:
+        """Let handlers that run return, and answer no further calls."""
+        if self.provider is not None:
             self.provider._start_closing()
-            while self.running:
-                await self.idle.wait()
+        while self.running:
+            await self.idle.wait()
 
     def log_error(self, what: str, error: Exception) -> None:
         """Log what failed, with the traceback."""

@@ -130,7 +130,9 @@ class Services:
 
     async def end_calls(self) -> None:
         """Let handlers that run return, while other roles can still be used."""
-        await asyncio.gather(*(each.end_running() for each in tuple(self.provisions.values())))
+        busy = [each for each in self.provisions.values() if each.running]
+        if busy:
+            await asyncio.gather(*(each.end_running() for each in busy))
 
     def abort(self) -> None:
         """End all probes at once."""
