@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from asyncio import _get_running_loop
 from collections.abc import Callable
 from typing import Any
 
@@ -23,10 +24,10 @@ def reportable(error: BaseException) -> Exception | None:
         return error
     if isinstance(error, (SystemExit, KeyboardInterrupt)):
         return None
-    task = asyncio.current_task()
-    # Python raises GeneratorExit where it closes a coroutine, which no task does.
-    if isinstance(error, GeneratorExit) and task is None:
+    # Python raises GeneratorExit where it drops a coroutine, for the event loop has ended.
+    if _get_running_loop() is None:
         return None
+    task = asyncio.current_task()
     if isinstance(error, asyncio.CancelledError) and task is not None and task.cancelling():
         return None
     reported = RuntimeError(f"{type(error).__name__} was raised: {described(error)}")
