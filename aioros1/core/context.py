@@ -184,6 +184,8 @@ class Context:
         end of the program goes to the event loop. Raises ``error`` if it cancels the running
         task.
         """
+        if self.loop_state.loop.is_closed():
+            raise error  # Python drops the coroutine that it is raised in
         reported = reportable(error)
         if isinstance(error, (SystemExit, KeyboardInterrupt)):
             # Not raised here: some event loops drop what a callback of a transport raises.
@@ -196,6 +198,8 @@ class Context:
     def handler_error(self, error: BaseException, what: str) -> BaseException:
         """Handle what a service handler raised although it is no :class:`Exception`, and return
         the error for the caller. Raises ``error`` if it cancels the running task."""
+        if self.loop_state.loop.is_closed():
+            raise error
         reported = reportable(error)
         if reported is not None:
             self._user_errors.handle_answered(reported, what)

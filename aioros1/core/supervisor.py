@@ -50,6 +50,7 @@ class Supervisor:
         self.state: State = "new"
         """The state of the node, which the steps of its life set."""
         self._group: asyncio.TaskGroup | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
         self._is_closing: asyncio.Event = asyncio.Event()
@@ -58,7 +59,8 @@ class Supervisor:
 
     async def start(self) -> None:
         """Return when the node has started; raise what that raises."""
-        begun = asyncio.get_running_loop().create_future()
+        self._loop = asyncio.get_running_loop()
+        begun = self._loop.create_future()
         self._task = asyncio.create_task(self._run(begun), name=f"{self._name} supervisor")
         try:
             await asyncio.shield(begun)
@@ -116,13 +118,24 @@ class Supervisor:
             await function(*args)
         except ClosedError:
             pass  # it used something that closed meanwhile
-        except (SystemExit, KeyboardInterrupt) as error:
-            leave_loop(error)
         except BaseException as error:
+            if self._is_forgotten:
+                if isinstance(error, GeneratorExit):
+                    raise
+                return  # it could not clean up
+            if isinstance(error, (SystemExit, KeyboardInterrupt)):
+                leave_loop(error)
+                return
             reported = reportable(error)
             if reported is None:
                 raise
             self._report(reported, name)
+
+    @property
+    def _is_forgotten(self) -> bool:
+        """Whether the event loop was closed, and Python drops the tasks. Nothing can be awaited
+        or scheduled then."""
+        return self._loop is not None and self._loop.is_closed()
 
     async def _run(self, begun: asyncio.Future[None]) -> None:
         try:
@@ -136,24 +149,29 @@ class Supervisor:
                     self._is_closing.set()
                     await self._life.finish()
                 finally:
-                    self._is_closing.set()
                     self._group = None
-                    await self._life.free()
+                    if not self._is_forgotten:
+                        self._is_closing.set()
+                        await self._life.free()
                 raise _TheEndError
         except* _TheEndError:
             pass
         except* Exception as errors:
             error = errors.exceptions[0] if len(errors.exceptions) == 1 else errors
-            self.end(described(error))
-            if begun.done():
+            if self._is_forgotten:
+                pass  # the task group could not cancel its tasks
+            elif begun.done():
+                self.end(described(error))
                 self._report(error, self._name)
             else:
+                self.end(described(error))
                 begun.set_exception(error)
         finally:
-            forgotten = self.reason is None
-            self.end("the event loop has ended")
+            was_closed = self.reason is not None
+            if not was_closed:
+                self.reason = "the event loop has ended"
             self._life.drop()
-            if forgotten:  # last, because a warning may be an exception
+            if not was_closed:  # last, because a warning may be an exception
                 warnings.warn(f"{self._name} was never closed", ResourceWarning, stacklevel=1)
 
 

@@ -272,7 +272,8 @@ def _separate(cls: type[Message]) -> None:
     those of that class: ``__slots__`` names them, and not what the user puts beside them.
     """
     if "__slots__" in cls.__dict__:
-        cls.__slots__ = next(base for base in cls.__mro__ if "_type" in base.__dict__).__slots__
+        origin: Any = next(base for base in cls.__mro__ if "_type" in base.__dict__)
+        cls.__slots__ = origin.__slots__
     for name in CODEC:
         setattr(cls, name, compiled(name))
     for base in cls.__mro__:

@@ -657,10 +657,12 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     def _drop(self) -> None:
         self._supervisor.state = "closed"
-        self._user_tasks.cancel_all()
         if self._rosout is not None:
             self._rosout.detach()
         self._levels.restore()
+        if self._context.loop_state.loop.is_closed():
+            return  # Python drops the rest: nothing can be scheduled any more
+        self._user_tasks.cancel_all()
         self._acceptor.close()
         self._topics.abort()
         self._services.abort()
