@@ -63,8 +63,8 @@ class Timer:
                     await result
             except BaseException as error:  # of the user's code
                 self._on_error(error, "the callback of a timer")
-            if self._oneshot:
-                return
+            if self._oneshot or self._task.cancelling():
+                return  # a callback may have caught its cancellation
 
     def __repr__(self) -> str:
         what = "once after" if self._oneshot else "every"

@@ -79,6 +79,12 @@ class Role(ABC):
         You may call it any number of times. If the master is unreachable, the error is logged
         and not raised. If you cancel the call, closing continues.
         """
+        self._start_closing()
+        if self._closing is not None:
+            await asyncio.wait({self._closing})
+
+    def _start_closing(self) -> None:
+        """Close in a task of the node, which goes on when whoever waits for it is cancelled."""
         if self._is_open:
             if get_ident() != self._loop_state.thread_id:
                 self._context.check_loop()
@@ -86,8 +92,10 @@ class Role(ABC):
             self._closing = self._context.spawn(
                 self._finish, name=f"close {self.kind} {self._name}"
             )
-        if self._closing is not None:
-            await asyncio.wait({self._closing})
+
+    @property
+    def _is_closing(self) -> bool:
+        return self._closing is not None and not self._closing.done()
 
     async def _finish(self) -> None:
         try:

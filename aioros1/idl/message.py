@@ -268,8 +268,12 @@ def _take_place(cls: type[Message], name: str, function: Any) -> None:
 def _separate(cls: type[Message]) -> None:
     """Give a class that a user has derived from a message class a codec of its own.
 
-    It decodes to itself then, and not to the class that it is derived from.
+    It decodes to itself then, and not to the class that it is derived from. Its fields are
+    those of that class: ``__slots__`` names them, and not what the user puts beside them.
     """
+    if "__slots__" in cls.__dict__:
+        origin: Any = next(base for base in cls.__mro__ if "_type" in base.__dict__)
+        cls.__slots__ = origin.__slots__
     for name in CODEC:
         setattr(cls, name, compiled(name))
     for base in cls.__mro__:

@@ -149,6 +149,8 @@ class Notifier:
             )
             if isinstance(answer, list) and answer[:1] == [-1]:
                 self._on_unwanted(message)
+        elif self._is_registered(message.api):
+            return  # another node has come to that address meanwhile
         else:
             answer = await self._client.call(message.api, "shutdown", _CALLER_ID, message.reason)
         _LOG.debug("%s answered %s", message.api, answer)

@@ -7,13 +7,14 @@ import math
 import os
 from collections.abc import Awaitable, Callable, Collection, Coroutine, Mapping, Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from aioros1._public import public
 from aioros1.clock.clock import Clock
 from aioros1.clock.rate import Rate, period_of
 from aioros1.clock.timer import Timer
 from aioros1.core.address import Address
+from aioros1.core.awaited import awaits_caller
 from aioros1.core.context import Context
 from aioros1.core.registration import Terms
 from aioros1.core.registrations import AT_ONCE, Registrations
@@ -21,6 +22,7 @@ from aioros1.core.role import Role
 from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
 from aioros1.core.user_errors import UserErrors
+from aioros1.core.user_tasks import Stage, UserTasks
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
@@ -42,6 +44,7 @@ from aioros1.node.service_methods import ServiceMethods
 from aioros1.node.sim_time import SimTime
 from aioros1.node.slave_api import SlaveApi
 from aioros1.node.topic_methods import TopicMethods
+from aioros1.node.winding_down import WindingDown
 from aioros1.options import (
     LOCAL_TRANSPORTS,
     Limits,
@@ -64,6 +67,8 @@ if TYPE_CHECKING:
     from aioros1.connection import ConnectionInfo
 
 __all__ = ["Node"]
+
+C = TypeVar("C", bound=Callable[[], object])
 
 
 @public
@@ -180,7 +185,8 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         own_address = OwnAddress(identity.host, bind, self.master_uri, words=identity.host_words)
         self._supervisor = supervisor
         self._events = events
-        self._user_errors = UserErrors(on_error, self.log, supervisor.end)
+        self._user_errors = UserErrors(on_error, self.log, self._end)
+        self._user_tasks = UserTasks(f"node {self.name}", supervisor.guard, self)
         self._context = context = Context(
             node=self,
             name=self.name,
@@ -195,6 +201,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             address=Address(self.name, own_address.given),
             supervisor=supervisor,
             user_errors=self._user_errors,
+            user_tasks=self._user_tasks,
             xmlrpc=xmlrpc,
             master=self.master,
             registrar=MasterProxy(xmlrpc, self.master_uri, self.name, timeout=math.inf),
@@ -231,6 +238,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._levels = LevelChanges()
         self._rosout: Rosout | None = None
         self._close_timeout = timeouts.close
+        self._winding_down = WindingDown(
+            context, self._user_tasks, self._user_errors, self._services.end_calls
+        )
 
     # lifecycle
 
@@ -248,12 +258,22 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         await self._supervisor.start()
         return self
 
-    async def close(self, timeout: float | None = None) -> None:
+    async def close(self, timeout: float | None = None, *, grace: float | None = None) -> None:
         """Close all roles, tell the master, and free everything.
 
         You may call it any number of times, also concurrently. The node waits at most
         ``timeout`` seconds (``timeouts.close`` by default) for others, then drops whatever
         is left. It holds no resources afterwards, whatever others do.
+
+        First your own code ends, while the roles of the node still work. The node cancels its
+        timers and the tasks of :meth:`create_task`, then calls the callbacks of
+        :meth:`on_shutdown`, then lets handlers that answer a service call return. Each of these
+        steps takes at most ``grace`` seconds (by default ``timeout``). Another call with a
+        ``grace`` changes that, the running step included.
+
+        Where the node waits for the code that calls this (a service handler, a callback of
+        :meth:`on_shutdown`, a task that cleans up), the call returns at once, and the node
+        closes afterwards.
         """
         supervisor = self._supervisor
         if supervisor.state == "new":
@@ -262,14 +282,42 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._context.check_loop()
         if timeout is not None:
             self._close_timeout = timeout
-        supervisor.end("closed")
-        await supervisor.wait()
+        if grace is not None:
+            self._winding_down.limit(grace)
+        is_awaited = awaits_caller(self)
+        if supervisor.reason is None:
+            self._user_tasks.exempt_caller()
+        self._user_errors.closing()
+        self._end("closed")
+        if not is_awaited:
+            await supervisor.wait()
+
+    def on_shutdown(self, callback: C) -> C:
+        """Call a function or coroutine function when the node is told to end, and return it.
+
+        It does not matter who ends the node: you, a signal to :func:`aioros1.run`, another node
+        or an error. All roles still work then. Use it to stop what has to be stopped::
+
+            node.on_shutdown(lambda: pub.publish(Twist()))
+
+        Callbacks have no arguments. They are called one after the other, the last one first,
+        after timers and the tasks of the node have ended. All together have ``timeouts.close``
+        seconds; those whose time is over are cancelled, and the others called all the same.
+        Exceptions are handled as ``on_error`` says. Raises :class:`TypeError` for what is not
+        a function, and :class:`~aioros1.ClosedError` once the callbacks are called.
+        """
+        self._context.check_loop()
+        if self._supervisor.state in ("closing", "closed"):
+            self._context.check_open()
+        self._winding_down.add(callback)
+        return callback
 
     def abort(self) -> None:
         """Drop everything at once, without telling the master or peers."""
         self._context.check_loop()
         self._close_timeout = 0
         self._supervisor.end("aborted")
+        self._winding_down.limit(0)
         self._drop()
 
     async def wait_closed(self) -> str:
@@ -411,17 +459,24 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     def create_task(
         self, coro: Coroutine[Any, Any, object], *, name: str | None = None
     ) -> asyncio.Task[None]:
-        """Run a coroutine in a task of the node, which is cancelled when the node closes.
+        """Run a coroutine in a task of the node, which is cancelled when the node is told to
+        end, while its roles still work.
 
         An exception in the coroutine is handled as ``on_error`` says. The task itself does
         not raise it; its result is None. Raises :class:`~aioros1.ClosedError`.
         """
+        return self._create_task(coro, name, "told")
+
+    def _create_task(
+        self, coro: Coroutine[Any, Any, object], name: str | None, until: Stage
+    ) -> asyncio.Task[None]:
         if not asyncio.iscoroutine(coro):
             raise TypeError(f"create_task() takes a coroutine, got {coro!r}")
         what = name if name is not None else f"task of node {self.name}"
         try:
             self._context.check_open()
-            task = self._context.spawn(self._run_for_user, coro, what, name=what)
+            spawn = self._context.spawn_user
+            task = spawn(self._run_for_user, coro, what, name=what, until=until)
         except BaseException:
             coro.close()  # Python warns if it is never awaited
             raise
@@ -502,7 +557,8 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         context = self._context
         context.check_open()
         return Timer(
-            *(context.clock, context.spawn, context.user_error, period, callback), oneshot=oneshot
+            *(context.clock, context.spawn_user, context.user_error, period, callback),
+            oneshot=oneshot,
         )
 
     @property
@@ -532,7 +588,17 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     def _shut_down(self, reason: str) -> None:
         """Close the node because the master, or anybody else, asked for it."""
         self.log.info("shutdown requested: %s", reason)
+        self._end(reason)
+
+    def _end(self, reason: str) -> None:
+        """Start to end the node."""
         self._supervisor.end(reason)
+        if self._supervisor.state == "open":
+            self._winding_down.begin()
+
+    async def _wind_down(self) -> None:
+        if self._supervisor.state == "open":
+            await self._winding_down.run(self._close_timeout)
 
     async def _begin(self) -> None:
         context, options = self._context, self.options
@@ -587,12 +653,17 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         await self._acceptor.wait_closed()
         await self._server.close()
         await self._context.xmlrpc.close()
+        for name in await self._user_tasks.end():
+            self.log.error("%s goes on although it was cancelled: it is left behind", name)
 
     def _drop(self) -> None:
         self._supervisor.state = "closed"
         if self._rosout is not None:
             self._rosout.detach()
         self._levels.restore()
+        if self._context.loop_state.loop.is_closed():
+            return  # Python drops the rest: nothing can be scheduled any more
+        self._user_tasks.cancel_all()
         self._acceptor.close()
         self._topics.abort()
         self._services.abort()
@@ -617,6 +688,7 @@ class _Life:
 
     def __init__(self, node: Node) -> None:
         self.begin = node._begin
+        self.wind_down = node._wind_down
         self.finish = node._finish
         self.free = node._free
         self.drop = node._drop

@@ -7,6 +7,7 @@ that it failed. rosnode, roswtf and the master read the values.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 __all__ = ["SlaveApi"]
 
 Triple = list[Any]
+
+_REPLACED = re.compile(r"\[(/[^\]\s]*)\] Reason: ")
+"""How the reason of a shutdown begins that a master sends: with the node that it is for."""
 
 
 class SlaveApi:
@@ -120,9 +124,17 @@ class SlaveApi:
         return [1, "publications", rows]
 
     def shutdown(self, caller_id: Any, reason: Any = "") -> Triple | Reply:
-        """Answer, then close the node. Anyone may call this, as rosnode kill does."""
+        """Answer, then close the node. Anyone may call this, as rosnode kill does.
+
+        A master names the node that another one of the same name replaces, and calls the
+        address at which that node was. If its process is gone, we may have its port now.
+        """
         if not isinstance(reason, str):
             return _wrong("msg", reason, "a string")
+        addressee = _REPLACED.match(reason)
+        if addressee is not None and canonicalize(addressee[1]) != self._context.name:
+            self._context.log.info("ignored a shutdown that is meant for %.200s", addressee[1])
+            return [-1, f"this is {self._context.name}, not {addressee[1]:.200}", 0]
         who = caller_id if isinstance(caller_id, str) else "unknown caller"
         return Reply([1, "shutdown", 0], after=lambda: self._shut_down(f"[{who}] {reason}"))
 

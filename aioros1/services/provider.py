@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1._public import public
+from aioros1.core.awaited import awaits_caller
 from aioros1.core.role import Role
 from aioros1.services.call import ServiceCall
 from aioros1.services.provider_connection import Handler
@@ -107,10 +108,26 @@ class ServiceProvider(Role, Generic[Q, A]):
 
     # the end
 
+    async def close(self) -> None:
+        """Unregister the service from the master and free its resources.
+
+        Calls that a handler works on are still answered. A handler of this service may call
+        this, too: it then returns once the service is unregistered. Otherwise it is as
+        :meth:`.Role.close`.
+        """
+        provision = self._provision
+        if not awaits_caller(provision):
+            await super().close()
+            return
+        self._start_closing()
+        while self._is_closing and provision.is_at_master:
+            await provision.has_left.wait()
+
     def _abort(self) -> None:
         super()._abort()
         self._provision.end_calls(self._closed_error())
         self._provision.abort()
+        self._provision.has_left.wake()
 
     async def _close(self) -> None:
         """Let running calls finish, and start no further ones."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Mapping
 from typing import Any
 
@@ -126,6 +127,12 @@ class Services:
             name = self._context.name
             raise HandshakeError(name, f"{name} has no service {server.service}")
         await provision.serve(stream, server)
+
+    async def end_calls(self) -> None:
+        """Let handlers that run return, while other roles can still be used."""
+        busy = [each for each in self.provisions.values() if each.running]
+        if busy:
+            await asyncio.gather(*(each.end_running() for each in busy))
 
     def abort(self) -> None:
         """End all probes at once."""

@@ -220,7 +220,7 @@ class Publisher(Role, Generic[M]):
                 pass  # the publisher was closed while this waited
 
         context = self._context
-        timer = Timer(context.clock, context.spawn, context.user_error, period, publish)
+        timer = Timer(context.clock, context.spawn_user, context.user_error, period, publish)
         self._timers.add(timer)
         return timer
 

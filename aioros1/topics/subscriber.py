@@ -104,7 +104,8 @@ class Subscriber(Role, Generic[M]):
     def _begin(self) -> None:
         """Start the task for a coroutine callback, once the subscriber is open."""
         if self._awaits:
-            self._context.spawn(self._take_all, name=f"callback of subscriber {self.name}")
+            name = f"callback of subscriber {self.name}"
+            self._context.spawn_user(self._take_all, name=name, until="closing")
 
     # what it is
 
@@ -412,7 +413,10 @@ class Subscriber(Role, Generic[M]):
     async def _take_all(self) -> None:
         """Await a coroutine function for each message."""
         callback: Any = self.callback
-        while (item := await self._next_item()) is not None:
+        task = asyncio.current_task()
+        assert task is not None
+        # A callback may have caught its cancellation.
+        while not task.cancelling() and (item := await self._next_item()) is not None:
             try:
                 message = self._decode(item)
             except DeserializationError as error:

@@ -9,7 +9,7 @@ from typing import Any
 
 from aioros1.master import Master
 from aioros1.master.notifier import Notifier
-from aioros1.master.registry import PublisherUpdate
+from aioros1.master.registry import PublisherUpdate, Shutdown
 from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.server import XmlRpcServer
 
@@ -31,6 +31,35 @@ async def test_the_old_node_is_told_to_end_and_its_subscribers_are_told(
         ("publisherUpdate", "/master", "/t", []),
     ]
     assert (await ask("lookupNode", "/c", "/dup"))[2] == new.uri
+
+
+async def test_who_comes_to_the_address_of_an_old_node_is_not_told_to_end() -> None:
+    """Not even when the old one did not answer before, so that it is told again."""
+    told: list[str] = []
+    registered: set[str] = set()
+
+    class Client:
+        async def call(self, uri: str, method: str, *params: Any) -> Any:
+            told.append(method)
+            registered.add(uri)
+            raise TimeoutError("no answer")
+
+    client: Any = Client()
+    notifier = Notifier(
+        client, is_registered=registered.__contains__, on_unwanted=lambda update: None
+    )
+    notifier.send([Shutdown("http://a:1/", "/a", "[/a] Reason: replaced")])
+    async with asyncio.timeout(20):
+        while not told:
+            await asyncio.sleep(0)
+        # What comes next for that address waits behind it.
+        registered.add("http://b:1/")
+        notifier.send([Shutdown("http://b:1/", "/b", "[/b] Reason: replaced")])
+        notifier.send([PublisherUpdate("http://b:1/", "/t", [])])
+        while "publisherUpdate" not in told:
+            await asyncio.sleep(0.01)
+    await notifier.close()
+    assert told.count("shutdown") == 1
 
 
 async def test_subscribers_are_told_of_every_change_of_publishers(ask: Any, make_node: Any) -> None:
