@@ -180,7 +180,9 @@ def _sexagesimal(text: str, convert: Callable[[str], float]) -> float:
 
 
 def _to_time(match: re.Match[str]) -> datetime:
-    *parts, fraction, zone = match.groups()
+    year, month, day, hour, minute, second = map(int, match.groups()[:6])
+    fraction, zone = match.groups()[6:]
     if zone is not None:
         raise ValueError("a parameter has no time zone")
-    return datetime(*map(int, parts), int((fraction or "")[:6].ljust(6, "0")))  # type: ignore[misc,arg-type]
+    microsecond = int((fraction or "")[:6].ljust(6, "0"))
+    return datetime(year, month, day, hour, minute, second, microsecond)
