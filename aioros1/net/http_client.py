@@ -17,6 +17,7 @@ from urllib.parse import quote, urlsplit
 from aioros1.net.connecting import connect
 from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
+from aioros1.wire.carriage_returns import with_references
 from aioros1.wire.http import AnswerReader, HttpError
 
 __all__ = ["HttpClient", "Server", "server_at"]
@@ -94,7 +95,9 @@ class HttpClient:
         pool.users += 1
         try:
             async with pool.slots:
-                return await self._post(pool, server, body)
+                answer = await self._post(pool, server, body)
+            pool.is_python = b"Python/" in answer.server
+            return answer
         finally:
             pool.users -= 1
 
@@ -116,6 +119,8 @@ class HttpClient:
 
     async def _post(self, pool: _Pool, server: Server, body: bytes) -> AnswerReader:
         lost: ConnectionResetError | None = None
+        if pool.is_python:
+            body = with_references(body)
         answer = AnswerReader(max_bytes=self._max_bytes)
         connection = pool.take()
         if connection is not None:
@@ -179,9 +184,11 @@ class HttpClient:
 class _Pool:
     """The connections to one server."""
 
-    __slots__ = ("idle", "slots", "users")
+    __slots__ = ("idle", "is_python", "slots", "users")
 
     def __init__(self) -> None:
+        self.is_python = False
+        """Whether the server is Python's, by its last answer."""
         self.idle: list[_Connection] = []
         self.slots = asyncio.Semaphore(PER_SERVER)
         self.users = 0  # requests in progress or waiting for a slot

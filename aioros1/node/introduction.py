@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from aioros1.core.context import Context
-from aioros1.errors import MasterUnreachable
+from aioros1.errors import MasterError, MasterUnreachable
+from aioros1.events import Broadcast, Event, EventStream, MasterRestarted
+from aioros1.node.private_params import PrivateParams
 from aioros1.node.sim_time import SimTime
 from aioros1.params.params import Params
 from aioros1.topics.topics import Topics
 
 __all__ = ["Introduction"]
+
+_RETRY = 1.0
 
 
 class Introduction:
@@ -24,17 +25,23 @@ class Introduction:
         topics: Topics,
         params: Params,
         sim_time: SimTime,
-        private_params: Mapping[str, Any],
+        private_params: PrivateParams,
+        events: Broadcast[Event],
     ) -> None:
         self._context = context
         self._topics = topics
         self._params = params
         self._sim_time = sim_time
-        self._private_params = private_params
+        self._private_params = private_params.values
+        self._warning = private_params.warning
+        self._events = events
 
     async def was_made(self) -> bool:
         """Make the introduction; return whether the master answered throughout."""
-        params = self._params
+        params, context = self._params, self._context
+        if self._warning:
+            context.log.warning("%s", self._warning)
+            self._warning = ""
         try:
             for key, value in self._private_params.items():
                 await params.set(f"~{key}", value)
@@ -46,7 +53,27 @@ class Introduction:
         if has_statistics:
             from aioros1.node.statistics import Statistics  # here, since few nodes need it
 
-            context = self._context
             statistics = Statistics(context, self._topics, params)
             context.spawn(statistics.run, name=f"{context.name} statistics")
+        if self._private_params:
+            context.spawn(
+                self._keep_private_params,
+                self._events.subscribe(),
+                name=f"{context.name} private parameters",
+            )
         return True
+
+    async def _keep_private_params(self, events: EventStream[Event]) -> None:
+        """Set the private parameters that a master does not have after it was restarted."""
+        async for event in events:
+            while isinstance(event, MasterRestarted):
+                try:
+                    for key, value in self._private_params.items():
+                        if not await self._params.has(f"~{key}"):
+                            await self._params.set(f"~{key}", value)
+                    break
+                except MasterUnreachable:
+                    await self._context.pause(_RETRY)
+                except MasterError as error:
+                    self._context.log.warning("cannot set a private parameter: %s", error)
+                    break

@@ -227,7 +227,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         sim_time = SimTime(context, self._topics, self._params)
         self._heartbeat = Heartbeat(context, own_address, sim_time.ask)
         self._introduction = Introduction(
-            context, self._topics, self._params, sim_time, identity.private_params
+            context, self._topics, self._params, sim_time, identity.private_params, events
         )
         slave_api = SlaveApi(
             *(context, self._topics, self._services, self._params),

@@ -142,7 +142,7 @@ class SlaveApi:
         if not isinstance(key, str) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
         # The master sends the key with a trailing slash, tools without.
-        if not self._params.updated(canonicalize(key), value):
+        if not self._params.announced(canonicalize(key), value):
             return [-1, f"not subscribed to parameter {key}", 0]
         return [1, "", 0]
 

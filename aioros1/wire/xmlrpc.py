@@ -7,7 +7,8 @@ The value types, and how each is written:
 ``int``           ``<int>``, 32 bits signed: XML-RPC knows no more
 ``float``         ``<double>`` with all its digits, and ``nan``, ``inf``, ``-inf``
                   as the programs of ROS 1 write them
-``str``           ``<string>``; what XML cannot carry is refused
+``str``           ``<string>``; what XML cannot carry is refused, and carriage
+                  returns are written as they are
 ``bytes``         ``<base64>``
 ``datetime``      ``<dateTime.iso8601>``: naive, whole seconds
 ``list, tuple``   ``<array>``, always read as a list
@@ -71,7 +72,7 @@ class XmlRpcFault(Exception):
 _Write = Callable[[str], None]
 
 # Characters that cannot be written as they are. Most strings have none.
-_SPECIAL = re.compile("[\x00-\x08\x0b-\x1f&<>\ud800-\udfff\ufffe\uffff]")
+_SPECIAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f&<>\ud800-\udfff\ufffe\uffff]")
 _ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -198,7 +199,7 @@ def _encode_dict(value: dict[str, Any], write: _Write, depth: int) -> None:
         if not isinstance(key, str):
             raise _UnencodableError(TypeError, f"the keys of a struct are strings: {brief(key)}")
         try:
-            write(f"<member><name>{_escape(str.__str__(key))}</name>")
+            write(f"<member><name>{_escape_name(str.__str__(key))}</name>")
             _encode(item, write, depth - 1)
         except _UnencodableError as bad:
             bad.place.append(f"[{key!r}]")
@@ -225,10 +226,14 @@ def _escape(text: str) -> str:
         raise _UnencodableError(
             ValueError, f"XML cannot carry the character {bad[0]!r}: {brief(text)}"
         )
-    # XML parsers turn a bare carriage return into a line feed, but not a reference to one.
-    return (
-        text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
-    )
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _escape_name(name: str) -> str:
+    """roscpp decodes no names, so they are written as they are as far as XML allows it."""
+    if _SPECIAL.search(name) is None:
+        return name
+    return _escape(name).replace("&gt;", ">").replace("]]>", "]]&gt;")
 
 
 _ENCODERS: dict[type, Callable[[Any, _Write, int], None]] = {

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any, NoReturn
 from xml.parsers import expat
 
+from aioros1.wire.carriage_returns import CarriageReturns
 from aioros1.wire.xmlrpc_scalars import BLANK, SCALARS, XmlRpcError, brief
 
 __all__ = ["UNSET", "Document", "read_document"]
@@ -48,11 +49,18 @@ _LONGEST_TAG = 256 << 10
 
 def _feed(parser: expat.XMLParserType, data: bytes) -> None:
     view = memoryview(data)
-    for end in range(_PIECE, len(data), _PIECE):
-        parser.Parse(view[end - _PIECE : end], False)
-        if end - parser.CurrentByteIndex > _LONGEST_TAG:
+    # In pieces, for they may become five times as long. Not in UTF-16.
+    returns = CarriageReturns() if b"\r" in data and b"\0" not in data else None
+    fed = 0
+    for begin in range(0, len(data), _PIECE):
+        piece: bytes | memoryview = view[begin : begin + _PIECE]
+        if returns is not None:
+            piece = returns.keep(bytes(piece))
+        is_last = begin + _PIECE >= len(data)
+        parser.Parse(piece, is_last)
+        fed += len(piece)
+        if not is_last and fed - parser.CurrentByteIndex > _LONGEST_TAG:
             raise XmlRpcError(f"a tag or a comment of more than {_LONGEST_TAG} bytes")
-    parser.Parse(view[(len(data) - 1) // _PIECE * _PIECE :], True)
 
 
 def _refuse_doctype(*_: object) -> NoReturn:

@@ -24,6 +24,7 @@ from aioros1.net.hosts import bind_sockets
 from aioros1.net.rate_limit import RateLimit
 from aioros1.options import Limits
 from aioros1.waiting import Waiters
+from aioros1.wire.carriage_returns import with_references
 from aioros1.wire.xmlrpc import (
     XmlRpcError,
     XmlRpcFault,
@@ -221,6 +222,8 @@ class XmlRpcServer:
             if not isinstance(body, bytes):
                 return body
             document, afters = await self._answer(body, connection.host)
+            if b"\r" in document and _is_python(request):
+                document = with_references(document)
             return await self._send(request, document, afters)
         finally:
             connection.request_ends()
@@ -380,6 +383,11 @@ class XmlRpcServer:
             if count % _YIELD_EVERY == 0:
                 await asyncio.sleep(0)
         return results
+
+
+def _is_python(request: web.BaseRequest) -> bool:
+    """Whether the client is Python's, as that of rospy and of the tools is."""
+    return request.headers.get("User-Agent", "").startswith(("Python-xmlrpc/", "xmlrpclib.py/"))
 
 
 async def _cancel(tasks: set[asyncio.Task[Any]]) -> None:

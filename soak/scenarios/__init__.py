@@ -10,6 +10,7 @@ from soak.scenarios import (
     lossless,
     many_nodes,
     master_restarts,
+    parameters,
     stalled_peers,
     two_loops,
 )
@@ -24,6 +25,7 @@ MODULES = (
     many_nodes,
     stalled_peers,
     two_loops,
+    parameters,
     churn,
 )
 SCENARIOS: dict[str, Scenario] = {module.SCENARIO.name: module.SCENARIO for module in MODULES}
