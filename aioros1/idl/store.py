@@ -486,7 +486,7 @@ class MessageStore:
         )
 
     @contextmanager
-    def _explaining(self, type: str, kind: Kind) -> Iterator[None]:
+    def _explaining(self, type: Any, kind: Kind) -> Iterator[None]:
         """If a name that a user gave is wrong, the error says what may have been meant."""
         if not isinstance(type, str):
             split_type(type)  # raises

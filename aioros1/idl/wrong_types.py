@@ -98,7 +98,9 @@ def near_types(
     it are listed: listing all of an installed ROS takes a tenth of a second. Without a package
     in the name, these are the usual ones and those given.
     """
-    words = [word for word in re.split(r"\W+", wrong[:500]) if word and word not in KINDS]
+    if len(wrong) > 200:
+        return []  # no file has such a name
+    words = [word for word in re.split(r"\W+", wrong) if word and word not in KINDS]
     if len(words) > 1 and words[0] == "aioros1":
         del words[0]
     if not words:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import copy
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 from aioros1._public import public
+from aioros1.core.context import Context
 from aioros1.core.role import Role
 from aioros1.events import ParamUpdate
+from aioros1.params.followed import FollowedParam
 from aioros1.waiting import Waiters
-
-if TYPE_CHECKING:
-    from aioros1.core.context import Context
-    from aioros1.params.followed import FollowedParam
 
 __all__ = ["ParamSubscriber"]
 
@@ -25,6 +23,7 @@ class ParamSubscriber(Role):
     :meth:`aioros1.Node.subscribe_param`."""
 
     kind = "parameter subscriber"
+    _factory = "subscribe_param"
 
     def __init__(self, context: Context, followed: FollowedParam, default: Any) -> None:
         super().__init__(context, followed.name)
