@@ -249,5 +249,6 @@ def _namespace_prefix(caller_id: str) -> str:
 
 def _text(name: object, what: str) -> str:
     if not isinstance(name, str):
-        raise TypeError(f"a {what} is a str, not {type(name).__name__}: {name!r}")
+        hint = "; the name comes before the type" if isinstance(name, type) else ""
+        raise TypeError(f"a {what} is a str, not {type(name).__name__}: {name!r:.200}{hint}")
     return name

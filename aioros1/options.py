@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 from aioros1._public import public
+from aioros1.hints import check_kinds
 
 __all__ = [
     "DEFAULT_QUEUE_SIZE",
@@ -195,9 +196,7 @@ class NodeOptions:
     """The transports that topics may use instead of TCP."""
 
     def __post_init__(self) -> None:
-        for name, (kind, expected) in _KINDS.items():
-            if not isinstance(value := getattr(self, name), kind):
-                raise TypeError(f"{name} must be {expected}, got {value!r}")
+        check_kinds(self, _KINDS)
         for name, port in (("xmlrpc_port", self.xmlrpc_port), ("tcpros_port", self.tcpros_port)):
             if not isinstance(port, int) or isinstance(port, bool) or not 0 <= port <= 65535:
                 raise ValueError(f"{name} must be a whole number from 0 to 65535, got {port!r}")
@@ -226,9 +225,17 @@ def _check_rosout(rosout: object) -> None:
 
 def check_queue(queue_size: int, overflow: str) -> None:
     """Raise :class:`ValueError` for invalid queue options."""
-    if not isinstance(queue_size, int) or queue_size < 1:
+    if not isinstance(queue_size, int) or isinstance(queue_size, bool) or queue_size < 1:
+        # rospy takes None and 0: to publish in the caller's thread, or without a bound.
+        habit = queue_size is None or (isinstance(queue_size, int) and queue_size <= 0)
         raise ValueError(
-            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}"
+            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r:.200}"
+            + (
+                f": every queue is bounded, and publish() never waits. Leave it out for "
+                f"{DEFAULT_QUEUE_SIZE}, or use overflow='block' and send() to lose nothing"
+                if habit
+                else ""
+            )
         )
     if overflow not in get_args(Overflow):
         choices = ", ".join(map(repr, get_args(Overflow)))

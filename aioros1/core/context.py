@@ -142,6 +142,8 @@ class Context:
         if supervisor.state != "open":
             reason = supervisor.reason
             why = f" ({reason})" if reason is not None else ""
+            if supervisor.state == "new":
+                why = ": start it first, with `async with` or with `await node.start()`"
             raise ClosedError(f"node {self.name} is {supervisor.state}, not open{why}")
         if get_ident() != self.loop_state.thread_id:
             self.check_loop()

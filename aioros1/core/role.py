@@ -7,13 +7,13 @@ import builtins
 from abc import ABC, abstractmethod
 from threading import get_ident
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.stats import RoleStats
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, SerializationError
 
 __all__ = ["Role"]
 
@@ -28,6 +28,18 @@ class Role(ABC):
 
     kind = "role"
     """The kind of role, in a word or two."""
+
+    _factory: ClassVar[str] = ""  # the method of a node that opens it
+
+    if not TYPE_CHECKING:
+
+        def __new__(cls, *args: Any, **kwargs: Any) -> Self:
+            if not (args and isinstance(args[0], Context)):
+                raise TypeError(
+                    f"a {cls.kind} needs a node: use `await node.{cls._factory}(...)` in place of "
+                    f"{cls.__name__}(...)"
+                )
+            return super().__new__(cls)
 
     def __init__(self, context: Context, name: str) -> None:
         self._context = context
@@ -115,6 +127,11 @@ class Role(ABC):
             raise self._closed_error()
         if get_ident() != self._loop_state.thread_id:
             self._context.check_loop()
+
+    def _misfit(self, error: SerializationError) -> SerializationError:
+        """The error for a message that cannot be sent, with the place where it was."""
+        error.args = (f"{error} ({self.kind} {self._name}, {self.type})",)
+        return error
 
     def _closed_error(self) -> ClosedError:
         reason = self._context.close_reason

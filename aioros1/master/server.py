@@ -14,6 +14,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from aioros1._public import public
+from aioros1.hints import explained
 from aioros1.master.api import MasterApi
 from aioros1.master.notifier import Notifier
 from aioros1.master.parameters import ParameterTree, ParamUpdate
@@ -94,6 +95,7 @@ class Master:
     Raises :class:`ValueError` for invalid networks in ``allow``.
     """
 
+    @explained
     def __init__(
         self,
         host: str | None = None,
@@ -172,8 +174,8 @@ class Master:
         door = self._server.admission
         return MasterStats(door.open, door.refused, door.forbidden, self._server.delayed)
 
-    async def start(self) -> None:
-        """Start to serve.
+    async def start(self) -> Self:
+        """Start to serve; returns the master.
 
         Raises :class:`OSError` when the address or the port is not available, and
         :class:`ValueError` when ``bind`` is not an address, or when ``allow`` excludes this
@@ -188,6 +190,7 @@ class Master:
         except BaseException:
             await self.close()
             raise
+        return self
 
     async def _start(self) -> None:
         host, bind = self._host, self._bind
@@ -253,8 +256,7 @@ class Master:
         return self._reason
 
     async def __aenter__(self) -> Self:
-        await self.start()
-        return self
+        return await self.start()
 
     async def __aexit__(
         self,

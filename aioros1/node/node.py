@@ -5,14 +5,13 @@ from __future__ import annotations
 import asyncio
 import math
 import os
-from collections.abc import Awaitable, Callable, Collection, Coroutine, Mapping, Sequence
+from collections.abc import Callable, Collection, Coroutine, Mapping, Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeVar
 
 from aioros1._public import public
 from aioros1.clock.clock import Clock
-from aioros1.clock.rate import Rate, period_of
-from aioros1.clock.timer import Timer
+from aioros1.connection import ConnectionInfo
 from aioros1.core.address import Address
 from aioros1.core.awaited import awaits_caller
 from aioros1.core.context import Context
@@ -26,6 +25,7 @@ from aioros1.core.user_tasks import Stage, UserTasks
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
+from aioros1.hints import NODE_HABITS, check_coroutine, explained, no_attribute
 from aioros1.idl import MessageStore, default_store
 from aioros1.log.levels import LevelChanges
 from aioros1.log.node_log import NodeLog
@@ -43,6 +43,7 @@ from aioros1.node.rosout import Rosout
 from aioros1.node.service_methods import ServiceMethods
 from aioros1.node.sim_time import SimTime
 from aioros1.node.slave_api import SlaveApi
+from aioros1.node.time_methods import TimeMethods
 from aioros1.node.topic_methods import TopicMethods
 from aioros1.node.winding_down import WindingDown
 from aioros1.options import (
@@ -55,7 +56,7 @@ from aioros1.options import (
 )
 from aioros1.params.params import Params
 from aioros1.services.services import Services
-from aioros1.time import Duration, Time
+from aioros1.time import Time
 from aioros1.topics.topics import Topics
 from aioros1.waiting import deadline
 from aioros1.xmlrpc.client import XmlRpcClient
@@ -63,16 +64,13 @@ from aioros1.xmlrpc.master_proxy import MasterProxy
 from aioros1.xmlrpc.node_proxy import NodeProxy
 from aioros1.xmlrpc.server import XmlRpcServer
 
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-
 __all__ = ["Node"]
 
 C = TypeVar("C", bound=Callable[[], object])
 
 
 @public
-class Node(TopicMethods, ServiceMethods, ParamMethods):
+class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
     """A node of a ROS graph. It runs in the event loop that starts it.
 
     ::
@@ -111,6 +109,12 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     :class:`ValueError` and :class:`TypeError`, which name the option.
     """
 
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> NoReturn:
+            raise no_attribute("'Node' object", name, NODE_HABITS)
+
+    @explained
     def __init__(
         self,
         name: str,
@@ -390,17 +394,17 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     @property
     def uri(self) -> str:
-        """The URI of the slave API."""
+        """The URI of the slave API. Raises :class:`RuntimeError` before the node is started."""
         return self._context.address.uri
 
     @property
     def tcpros_address(self) -> tuple[str, int]:
-        """The host and port for topics and services."""
+        """The host and port for topics and services; raises as :attr:`uri` does."""
         return self._context.address.tcpros
 
     @property
     def tcpros_uri(self) -> str:
-        """The URI the node registers its services with."""
+        """The URI the node registers its services with; raises as :attr:`uri` does."""
         return self._context.address.tcpros_uri
 
     @property
@@ -470,8 +474,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     def _create_task(
         self, coro: Coroutine[Any, Any, object], name: str | None, until: Stage
     ) -> asyncio.Task[None]:
-        if not asyncio.iscoroutine(coro):
-            raise TypeError(f"create_task() takes a coroutine, got {coro!r}")
+        check_coroutine(coro, "create_task()")
         what = name if name is not None else f"task of node {self.name}"
         try:
             self._context.check_open()
@@ -514,68 +517,6 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             while not await self._heartbeat.greet():
                 limit.why = self._heartbeat.refusal
                 await self._context.pause(0.1)
-
-    # time
-
-    def now(self) -> Time:
-        """The current time: that of ``/clock`` if the node follows it, else the wall clock's."""
-        return Time.from_nsec(self._context.clock.nanoseconds())
-
-    @property
-    def uses_sim_time(self) -> bool:
-        """Whether the node follows the time of ``/clock``."""
-        return self._context.clock.is_simulated
-
-    async def sleep(self, duration: float | Duration) -> None:
-        """Sleep for ``duration`` seconds of this node's time.
-
-        Raises :class:`~aioros1.ClosedError`.
-        """
-        self._context.check_loop()
-        await self._context.clock.sleep(duration)
-
-    def rate(self, hz: float) -> Rate:
-        """Iterate ``hz`` times per second of this node's time; ends with the node.
-
-        Raises :class:`ValueError` for a rate that is not positive.
-        """
-        self._context.check_iterator()
-        return Rate(self._context.clock, period_of(hz))
-
-    def timer(
-        self,
-        period: float | Duration,
-        callback: Callable[[Time], Any] | Callable[[Time], Awaitable[Any]],
-        *,
-        oneshot: bool = False,
-    ) -> Timer:
-        """Call a function or coroutine function with the time, every ``period`` seconds.
-
-        The timer ends with the node, or when you call :meth:`aioros1.Timer.cancel`. Exceptions
-        in the function are handled as ``on_error`` says.
-        """
-        context = self._context
-        context.check_open()
-        return Timer(
-            *(context.clock, context.spawn_user, context.user_error, period, callback),
-            oneshot=oneshot,
-        )
-
-    @property
-    def next_wakeup(self) -> Time | None:
-        """The earliest simulated time that anything in this node waits for; None if nothing
-        does. This is for programs that step ``/clock``."""
-        moment = self._context.clock.next_awaited
-        return None if moment is None else Time.from_nsec(moment)
-
-    async def wait_for_time(self, time: Time, *, timeout: float | None = None) -> None:
-        """Wait until the simulated time is exactly ``time``, a step of ``/clock``.
-
-        This is for programs that step ``/clock``. Raises :class:`TimeoutError` after
-        ``timeout`` seconds, and :class:`~aioros1.ClosedError`.
-        """
-        self._context.check_loop()
-        await self._context.clock.wait_until_shows(time.to_nsec(), timeout=timeout)
 
     def __repr__(self) -> str:
         return f"<Node {self.name} at {self.master_uri}, {self.state}>"

@@ -5,17 +5,20 @@ from __future__ import annotations
 from typing import Any
 
 from aioros1.core.opening import Opening
+from aioros1.hints import explained, methods_of
 from aioros1.params.params import Params
 from aioros1.params.subscriber import ParamSubscriber
 
 __all__ = ["ParamMethods"]
 
 
+@methods_of("Node")
 class ParamMethods:
     """The parameter methods of :class:`~aioros1.Node`."""
 
     _params: Params
 
+    @explained
     def subscribe_param(self, key: str, *, default: Any = ...) -> Opening[ParamSubscriber]:
         """Follow a parameter and everything below it.
 

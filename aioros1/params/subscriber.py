@@ -5,17 +5,15 @@ from __future__ import annotations
 import copy
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 from aioros1._public import public
+from aioros1.core.context import Context
 from aioros1.core.role import Role
 from aioros1.events import ParamUpdate
+from aioros1.params.followed import FollowedParam
 from aioros1.params.tree import weight
 from aioros1.waiting import Waiters
-
-if TYPE_CHECKING:
-    from aioros1.core.context import Context
-    from aioros1.params.followed import FollowedParam
 
 __all__ = ["ParamSubscriber"]
 
@@ -30,6 +28,7 @@ class ParamSubscriber(Role):
     :meth:`aioros1.Node.subscribe_param`."""
 
     kind = "parameter subscriber"
+    _factory = "subscribe_param"
 
     def __init__(
         self, context: Context, followed: FollowedParam, default: Any, keeps_updates: bool

@@ -43,8 +43,6 @@ class Services:
         name = context.resolve_name(name)
         is_any = options.raw and type == "*"
         service_class = None if is_any else context.store.resolve_srv(type)
-        if handler is not None and not callable(handler):
-            raise TypeError(f"service {name}: the handler is a function, got {handler!r}")
         while (other := self.provisions.get(name)) is not None and other.provider is not None:
             if other.is_open:
                 raise ValueError(f"{context.name} provides service {name} already")

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 from weakref import WeakSet
 
 from aioros1._public import public
 from aioros1.clock.timer import Timer
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
 from aioros1.core.role import Role
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, SerializationError
+from aioros1.hints import check_takes
 from aioros1.idl import Message
 from aioros1.idl.codec import codec_of
+from aioros1.idl.genpy_types import GenpyMessage
 from aioros1.idl.message_from import message_from
 from aioros1.net.topic_links import JOIN, Frame
+from aioros1.time import Duration, Time
 from aioros1.topics.options import PublisherOptions
+from aioros1.topics.publication import Publication
 from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl.genpy_types import GenpyMessage
-    from aioros1.time import Duration, Time
-    from aioros1.topics.publication import Publication
 
 __all__ = ["Publisher"]
 
@@ -41,6 +40,7 @@ class Publisher(Role, Generic[M]):
     """
 
     kind = "publisher"
+    _factory = "advertise"
 
     def __init__(
         self,
@@ -113,10 +113,13 @@ class Publisher(Role, Generic[M]):
         coalescer = publication.coalescer
         if not coalescer.collects_here():
             coalescer.begin()
-        if msg.__class__ is self._plain_class and not fields:
-            frame = self._frame(msg)
-        else:
-            frame = self._encode(msg, fields)
+        try:
+            if msg.__class__ is self._plain_class and not fields:
+                frame = self._frame(msg)
+            else:
+                frame = self._encode(msg, fields)
+        except SerializationError as error:
+            raise self._misfit(error)  # noqa: B904 - it is the same error
         if self._blocks and publication.is_congested:
             self._require_room()
         if self._latches:
@@ -170,10 +173,13 @@ class Publisher(Role, Generic[M]):
             )
         if not coalescer.collects_here():
             coalescer.begin()
-        if msg.__class__ is self._plain_class and not fields:
-            frame = self._frame(msg)
-        else:
-            frame = self._encode(msg, fields)
+        try:
+            if msg.__class__ is self._plain_class and not fields:
+                frame = self._frame(msg)
+            else:
+                frame = self._encode(msg, fields)
+        except SerializationError as error:
+            raise self._misfit(error)  # noqa: B904 - it is the same error
         if self._latches:
             self._latched = frame
         publication.send(frame, self)
@@ -201,7 +207,12 @@ class Publisher(Role, Generic[M]):
         self._check_open()
         if not callable(msg):
             # Raise here, where the caller sees it, and not later in the timer.
-            self._frame(message_from(self.message_class, msg, fields, "msg"))
+            try:
+                self._frame(message_from(self.message_class, msg, fields, "msg"))
+            except SerializationError as error:
+                raise self._misfit(error)  # noqa: B904 - it is the same error
+        else:
+            check_takes(msg, f"publisher {self.name}: the function that makes messages", "the time")
 
         async def publish(now: Time) -> None:
             message: Any = msg

@@ -8,23 +8,21 @@ import inspect
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 from aioros1._public import public
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
 from aioros1.core.role import Role
 from aioros1.errors import DeserializationError
+from aioros1.idl import Message
 from aioros1.idl.codec import codec_of
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.time import Time
 from aioros1.topics.decoding import Decoder, decoder_for
 from aioros1.topics.options import SubscriberOptions
+from aioros1.topics.subscription import Subscription
 from aioros1.waiting import Waiters, deadline
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl import Message
-    from aioros1.topics.subscription import Subscription
 
 __all__ = ["Callback", "MessageEvent", "Subscriber"]
 
@@ -66,6 +64,7 @@ class Subscriber(Role, Generic[M]):
     """
 
     kind = "subscriber"
+    _factory = "subscribe"
 
     def __init__(
         self,
