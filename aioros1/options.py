@@ -67,8 +67,9 @@ class Timeouts:
 class Limits:
     """How much a node or a master accepts from others.
 
-    A host is an address: all machines behind one NAT router count as one host. Connections
-    over Unix sockets, or within one event loop, count only in ``connections``.
+    A host is an IPv4 address or an IPv6 network of 64 bits: all machines behind one NAT router
+    count as one host. All addresses of this machine are one host. Connections over Unix
+    sockets, or within one event loop, count only in ``connections``.
 
     Raises :class:`ValueError` for a limit that is not a positive number.
     """

@@ -7,7 +7,8 @@ import logging
 import socket
 from typing import Any
 
-from aioros1.net.allow import AllowList, parse_address
+from aioros1.net.allow import THIS_MACHINE, Address, AllowList, host_of, parse_address
+from aioros1.net.hosts import is_local
 from aioros1.net.rate_limit import Seldom
 
 __all__ = ["THIS_HOST", "Admission"]
@@ -53,8 +54,8 @@ class Admission:
     def enter(self, transport: asyncio.BaseTransport) -> str | None:
         """Decide about a new connection.
 
-        Returns the host it comes from, which :meth:`leave` needs when it ends, or ``None``
-        if you must close it at once.
+        Returns the host it comes from, as :func:`.host_of` names it, or ``None`` if you must
+        close it at once. :meth:`leave` needs the host when the connection ends.
         """
         host = THIS_HOST
         sock = transport.get_extra_info("socket")
@@ -63,10 +64,10 @@ class Admission:
                 address = parse_address(transport.get_extra_info("peername")[0])
             except (OSError, TypeError, ValueError):
                 return None  # the peer has gone already, and its address is unknown
-            host = str(address)
+            host = self._host_of(address)
             if address not in self._allow:
                 self.forbidden += 1
-                self._tell(host, "it is not in allow")
+                self._tell(str(address), "it is not in allow")
                 return None
         if self.open >= self._total:
             self.refused += 1
@@ -91,6 +92,11 @@ class Admission:
             count = self._hosts.pop(host) - 1
             if count:
                 self._hosts[host] = count
+
+    def _host_of(self, address: Address) -> str:
+        host = host_of(address)
+        # Asked once for each host, because the system has to tell.
+        return host if host in self._hosts or not is_local(str(address)) else THIS_MACHINE
 
     def _tell(self, host: str, why: str) -> None:
         if self._seldom(host, asyncio.get_running_loop().time()):

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from aiohttp import web
 
+from aioros1.net.ending import shut_down
+
 if TYPE_CHECKING:
     from aiohttp.abc import AbstractStreamWriter
     from aiohttp.typedefs import LooseHeaders
@@ -127,6 +129,7 @@ class Connection(web.RequestHandler):
     def connection_lost(self, exc: BaseException | None) -> None:
         if self.host is None:
             return
+        shut_down(self.transport)
         super().connection_lost(exc)
         self._connections.discard(self)
         self._ended.wake()
