@@ -59,6 +59,10 @@ class Acceptor:
         self.local.close()
         self._listener.close()
 
+    async def wait_closed(self) -> None:
+        """Wait until each connection that was being accepted is served or closed."""
+        await self._listener.wait_closed()
+
     async def _serve(self, stream: Stream) -> None:
         context = self._context
         server = Server(

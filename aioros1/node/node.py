@@ -584,6 +584,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     async def _free(self) -> None:
         self._supervisor.state = "closing"
         self._acceptor.close()
+        await self._acceptor.wait_closed()
         await self._server.close()
         await self._context.xmlrpc.close()
 

@@ -17,6 +17,7 @@ from typing import Any
 
 from aiohttp import web
 
+from aioros1.net.accepting import ListeningSocket
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.hosts import bind_sockets
@@ -58,10 +59,6 @@ FAULT_APPLICATION = -32500
 _LOG = logging.getLogger("aioros1.xmlrpc")
 _PATHS = frozenset({"/", "/RPC2"})
 _YIELD_EVERY = 32
-
-_ACCEPTING = 3
-"""Iterations of the event loop until an accepted connection has its protocol, at most: the
-task of asyncio that makes the transport, and a callback of that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +102,7 @@ class XmlRpcServer:
         self.delayed = 0
         """Requests that had to wait so far, because their host had sent too many."""
         self._http: web.Server | None = None
-        self._listeners: list[asyncio.Server] = []
+        self._listeners: list[ListeningSocket] = []
         self._connections: set[Connection] = set()
         self._connection_ended = Waiters()
         # The requests in progress, and the connections that have had one.
@@ -134,11 +131,12 @@ class XmlRpcServer:
         self._sweep()
         quiet: Any = Quiet(self._log)
 
-        def connection() -> Connection:
+        def connection(host: str) -> Connection:
             return Connection(
                 self._connections,
                 self._connection_ended,
                 self.admission,
+                host,
                 http,
                 loop=loop,
                 keepalive_timeout=KEEP_ALIVE,
@@ -148,20 +146,10 @@ class XmlRpcServer:
                 logger=quiet,
             )
 
-        try:
-            for sock in sockets:
-                # Not in one step with serving, which lets other tasks run: if this one was
-                # cancelled then, nobody would have the server to close it.
-                listener = await loop.create_server(
-                    connection, sock=sock, backlog=512, start_serving=False
-                )
-                self._listeners.append(listener)
-                await listener.start_serving()
-        except BaseException:
-            await self.close()
-            for sock in sockets:
-                sock.close()
-            raise
+        self._listeners = [
+            ListeningSocket(sock, connection, admission=self.admission, log=self._log)
+            for sock in sockets
+        ]
 
     async def close(self, *, timeout: float = 1.0) -> None:
         """Stop listening, give requests in progress ``timeout`` seconds to finish, and close
@@ -176,10 +164,8 @@ class XmlRpcServer:
             return
         if self._sweeper is not None:
             self._sweeper.cancel()
-        # asyncio tells a protocol of a connection it has just accepted some iterations of the
-        # event loop later. Until then nobody could close that connection.
-        for _ in range(_ACCEPTING):
-            await asyncio.sleep(0)
+        for listener in listeners:
+            await listener.wait_closed()
         http.pre_shutdown()
         # aiohttp loses track of the tasks of a connection whose peer has gone, so they are
         # ended here.
@@ -250,7 +236,6 @@ class XmlRpcServer:
         never has more requests waiting than connections.
         """
         host = connection.host
-        assert host is not None
         delay = rate.take(host, asyncio.get_running_loop().time())
         if not delay:
             return
@@ -329,9 +314,7 @@ class XmlRpcServer:
 
     # ------------------------------------------------------------------ one call
 
-    async def _answer(
-        self, body: bytes, host: str | None
-    ) -> tuple[bytes, list[Callable[[], object]]]:
+    async def _answer(self, body: bytes, host: str) -> tuple[bytes, list[Callable[[], object]]]:
         afters: list[Callable[[], object]] = []
         limits = self._limits
         try:

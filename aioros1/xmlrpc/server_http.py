@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from aiohttp import web
 
@@ -94,17 +94,26 @@ class Connection(web.RequestHandler):
 
     aiohttp waits for the rest of a request line as long as for the next request.
     ``connections`` holds those that are open, and ``ended`` wakes whoever waits for the end
-    of one. A connection that ``admission`` refuses is not among them, and is closed before
-    anything is read from it.
+    of one. ``admission`` has let it in as ``host``.
     """
 
-    __slots__ = ("_admission", "_busy", "_connections", "_ended", "_gone", "_waits_since", "host")
+    __slots__ = (
+        "_admission",
+        "_busy",
+        "_connection",
+        "_connections",
+        "_ended",
+        "_gone",
+        "_waits_since",
+        "host",
+    )
 
     def __init__(
         self,
         connections: set[Connection],
         ended: Waiters,
         admission: Admission,
+        host: str,
         manager: web.Server,
         **options: Any,
     ) -> None:
@@ -112,24 +121,21 @@ class Connection(web.RequestHandler):
         self._connections = connections
         self._ended = ended
         self._admission = admission
-        self.host: str | None = None
-        """The host it comes from; ``None`` before it is admitted."""
+        self.host = host
+        """The host it comes from, as ``admission`` has named it."""
+        self._connection: asyncio.BaseTransport | None = None  # aiohttp forgets it early
         self._gone: asyncio.Future[bool] | None = None
         self._busy = False
         self._waits_since: float | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        self.host = self._admission.enter(transport)
-        if self.host is None:
-            cast("asyncio.Transport", transport).abort()
-            return
+        self._connection = transport
         self._connections.add(self)
         super().connection_made(transport)
 
     def connection_lost(self, exc: BaseException | None) -> None:
-        if self.host is None:
-            return
-        shut_down(self.transport)
+        shut_down(self._connection)
+        self._connection = None
         super().connection_lost(exc)
         self._connections.discard(self)
         self._ended.wake()
