@@ -127,7 +127,7 @@ async def test_closing_a_master_ends_its_port_and_connections():
     writer.close()
 
 
-async def test_a_request_that_is_cancelled_ends_its_connection(make_node):
+async def test_a_request_that_is_cancelled_ends_its_connection(make_node, make_publisher):
     """The connections that a node makes, too: a server counts them until they end."""
     node = await make_node("node")
     begun, ended = asyncio.Event(), asyncio.Event()
@@ -139,8 +139,9 @@ async def test_a_request_that_is_cancelled_ends_its_connection(make_node):
         writer.close()
 
     server = await asyncio.start_server(serve, "127.0.0.1", 0)
-    port = server.sockets[0].getsockname()[1]
-    await node.master.register_publisher("/chatter", "std_msgs/String", f"http://127.0.0.1:{port}/")
+    uri = "http://127.0.0.1:{}/".format(server.sockets[0].getsockname()[1])
+    fake = await make_publisher(register=False)
+    await fake.master.register_publisher("/chatter", "std_msgs/String", uri)
     sub = await node.subscribe("chatter", String)
     await begun.wait()
     with forked():
