@@ -101,6 +101,12 @@ class Limits:
     """Bytes of the body of an XML-RPC request or answer. Robot descriptions and maps go
     through the parameter server."""
 
+    bytes_in_flight: int = 512 << 20
+    """Bytes that a node or a master holds of what is still arriving, or waits to be read by
+    others, in sum over all connections, separately for TCPROS and XML-RPC. Beyond that it
+    closes the connections that have held most for longest. The first 16 KiB of each connection
+    do not count, and one that is alone may hold more, up to its own limit."""
+
     xmlrpc_depth: int = 100
     """Nesting depth of arrays and structs in an XML-RPC value. Parameters of robots reach up
     to ten."""

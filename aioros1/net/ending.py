@@ -1,8 +1,8 @@
-"""Ends sockets for every process that holds them.
+"""Ends connections for every process that holds them.
 
 A child that was forked, such as a worker of a ``ProcessPoolExecutor``, inherits all sockets.
-Closing one here then ends nothing: the peer keeps its connection, and a listening socket goes on
-to take connections that nobody serves. Shutting it down ends it for all.
+Closing one here then ends nothing, and the peer keeps its connection. Shutting it down ends it
+for all.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ import contextlib
 import os
 import socket
 from asyncio.trsock import TransportSocket
+from typing import Any
 
-__all__ = ["shut_down", "shut_down_socket"]
+__all__ = ["shut_down"]
 
 
 def shut_down(transport: asyncio.BaseTransport | None) -> None:
@@ -22,16 +23,12 @@ def shut_down(transport: asyncio.BaseTransport | None) -> None:
     Call this from ``connection_lost()``. What the transport had to send has been given to the
     system by then, which still delivers it.
     """
-    sock = None if transport is None else transport.get_extra_info("socket")
-    if sock is not None:
-        shut_down_socket(sock)
-
-
-def shut_down_socket(sock: socket.socket | TransportSocket) -> None:
-    """End a connection, or make a listening socket take no more."""
+    sock: Any = None if transport is None else transport.get_extra_info("socket")
+    if sock is None:
+        return
     with contextlib.suppress(OSError):  # it has ended already
-        if isinstance(sock, (socket.socket, TransportSocket)):
+        if isinstance(sock, TransportSocket):
             sock.shutdown(socket.SHUT_RDWR)
-        else:  # uvloop's sockets only describe themselves
+        else:  # uvloop's only describe themselves
             with socket.socket(fileno=os.dup(sock.fileno())) as own:
                 own.shutdown(socket.SHUT_RDWR)

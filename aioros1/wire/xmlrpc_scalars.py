@@ -45,7 +45,8 @@ class _Brief(reprlib.Repr):
         if level <= 0:
             return "{...}"
         items = islice(value.items(), 20)
-        return f"{{{', '.join(f'{brief(key)}: {self.repr1(item, level - 1)}' for key, item in items)}}}"
+        texts = (f"{brief(key)}: {self.repr1(item, level - 1)}" for key, item in items)
+        return f"{{{', '.join(texts)}}}"
 
 
 _BRIEF = _Brief()

@@ -139,7 +139,7 @@ async def test_a_request_that_is_cancelled_ends_its_connection(make_node, make_p
         writer.close()
 
     server = await asyncio.start_server(serve, "127.0.0.1", 0)
-    uri = "http://127.0.0.1:{}/".format(server.sockets[0].getsockname()[1])
+    uri = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}/"
     fake = await make_publisher(register=False)
     await fake.master.register_publisher("/chatter", "std_msgs/String", uri)
     sub = await node.subscribe("chatter", String)
