@@ -68,8 +68,9 @@ class Timeouts:
 class Limits:
     """How much a node or a master accepts from others.
 
-    A host is an address: all machines behind one NAT router count as one host. Connections
-    over Unix sockets, or within one event loop, count only in ``connections``.
+    A host is an IPv4 address or an IPv6 network of 64 bits: all machines behind one NAT router
+    count as one host. All addresses of this machine are one host. Connections over Unix
+    sockets, or within one event loop, count only in ``connections``.
 
     Raises :class:`ValueError` for a limit that is not a positive number.
     """
@@ -100,6 +101,12 @@ class Limits:
     xmlrpc_bytes: int = 64 << 20
     """Bytes of the body of an XML-RPC request or answer. Robot descriptions and maps go
     through the parameter server."""
+
+    bytes_in_flight: int = 512 << 20
+    """Bytes that a node or a master holds of what is still arriving, or waits to be read by
+    others, in sum over all connections, separately for TCPROS and XML-RPC. Beyond that it
+    closes the connections that have held most for longest. The first 16 KiB of each connection
+    do not count, and one that is alone may hold more, up to its own limit."""
 
     xmlrpc_depth: int = 100
     """Nesting depth of arrays and structs in an XML-RPC value. Parameters of robots reach up

@@ -15,6 +15,7 @@ from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
 from aioros1.net.connecting import connect
+from aioros1.net.ending import shut_down
 from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
 from aioros1.wire.carriage_returns import with_references
@@ -49,9 +50,21 @@ class Server(NamedTuple):
     """The head of a request, up to the length of its body."""
 
 
+MAX_URI = 2_048
+"""The longest URI. Those of ROS 1 have some thirty characters."""
+
+
 @lru_cache(maxsize=1024)
-def server_at(uri: str) -> Server:
-    """Parse ``uri``. Raises :class:`ValueError` if it is not an HTTP URI."""
+def server_at(uri: str, *, any_path: bool = False) -> Server:
+    """Parse ``uri``. Raises :class:`ValueError` if it is not an HTTP URI, or a very long one.
+
+    Whoever registers a node chooses the URI to which its master and other nodes send
+    requests. They serve XML-RPC at ``/`` and ``/RPC2`` alone, so that any other path, and any
+    query, becomes ``/``: otherwise one could have requests sent to the pages of any HTTP
+    server. With ``any_path`` the path is kept.
+    """
+    if len(uri) > MAX_URI:
+        raise ValueError(f"a URI of {len(uri)} characters, more than {MAX_URI}")
     parts = urlsplit(uri)
     host, port = parts.hostname, 80 if parts.port is None else parts.port
     if parts.scheme != "http" or not host or not port:
@@ -63,6 +76,8 @@ def server_at(uri: str) -> Server:
     path = quote(parts.path or "/RPC2", safe="/%:@!$&'()*+,;=~")
     if parts.query:
         path += "?" + quote(parts.query, safe="/%:@!$&'()*+,;=~?")
+    if path != "/RPC2" and not any_path:
+        path = "/"
     head = (
         f"POST {path} HTTP/1.1\r\nHost: {uri_host(quote(host, safe=':%'))}:{port}\r\n"
         "Content-Type: text/xml\r\nUser-Agent: aioros1\r\nContent-Length: "
@@ -321,6 +336,7 @@ class _Connection(asyncio.Protocol):
         self._transport = cast("asyncio.Transport", transport)
 
     def connection_lost(self, exc: Exception | None) -> None:
+        shut_down(self._transport)
         self._ended(self)
         if self in self._pool.idle:
             self._pool.idle.remove(self)

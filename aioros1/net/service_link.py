@@ -12,6 +12,7 @@ import asyncio
 from collections.abc import Callable
 from typing import Any, cast
 
+from aioros1.net.ending import shut_down
 from aioros1.net.tcpros import Stream
 from aioros1.wire.service import ServiceFrameError, frame_length
 
@@ -95,6 +96,7 @@ class ServiceLink(asyncio.Protocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._failure = exc
+        shut_down(self._transport)
         self._end()
         if self._writable is not None and not self._writable.done():
             self._writable.set_result(None)

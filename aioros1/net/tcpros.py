@@ -19,10 +19,11 @@ from aioros1.net.accepting import ListeningSocket
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.connecting import connect as connect_tcp
+from aioros1.net.ending import shut_down
 from aioros1.net.hosts import bind_sockets, set_keepalive
 from aioros1.options import Limits, Timeouts
 
-__all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
+__all__ = ["Listener", "Stream", "StreamProtocol", "connect", "connection_info", "take_over"]
 
 _LOG = logging.getLogger("aioros1.tcpros")
 
@@ -46,10 +47,28 @@ class Side(Protocol):
     def receive_data(self, data: bytes) -> bool: ...
 
 
-class Stream:
-    """A connection during the handshake: a reader, a writer, and what both need."""
+class StreamProtocol(asyncio.StreamReaderProtocol):
+    """asyncio's protocol of a stream, which ends the connection for forked processes, too."""
 
-    __slots__ = ("peer", "reader", "transport_name", "writer")
+    _connection: asyncio.BaseTransport | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._connection = transport
+        super().connection_made(transport)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        shut_down(self._connection)
+        self._connection = None
+        super().connection_lost(exc)
+
+
+class Stream:
+    """A connection during the handshake: a reader, a writer, and what both need.
+
+    Raises :class:`OSError` if the connection is lost already.
+    """
+
+    __slots__ = ("local", "peer", "reader", "remote", "transport_name", "writer")
 
     def __init__(
         self,
@@ -59,13 +78,18 @@ class Stream:
     ) -> None:
         self.reader = reader
         self.writer = writer
+        self.local = self.remote = ("", 0)
         sock = writer.get_extra_info("socket")
         if sock is None:
             self.transport_name = "INTRAPROCESS"
             self.peer = "this process"
         elif sock.family in (socket.AF_INET, socket.AF_INET6):
             self.transport_name = "TCPROS"
-            self.peer = _address_text(writer.get_extra_info("peername"))
+            # Now, because uvloop asks the system, which forgets them when the peer resets
+            # the connection.
+            self.local = _address(writer, "sockname")
+            self.remote = _address(writer, "peername")
+            self.peer = _address_text(self.remote)
             _tune(sock, timeouts)
         else:
             self.transport_name = "UNIXROS"
@@ -136,9 +160,9 @@ async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
     loop = asyncio.get_running_loop()
     readers: dict[asyncio.BaseProtocol, asyncio.StreamReader] = {}  # a protocol does not keep it
 
-    def stream_protocol() -> asyncio.StreamReaderProtocol:
+    def stream_protocol() -> StreamProtocol:
         reader = asyncio.StreamReader(loop=loop)
-        protocol = asyncio.StreamReaderProtocol(reader, loop=loop)
+        protocol = StreamProtocol(reader, loop=loop)
         readers[protocol] = reader
         return protocol
 
@@ -155,7 +179,11 @@ async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
             ) from None
         raise ConnectionError(f"cannot connect to {host}:{port}: {error}") from error
     reader = readers[protocol]
-    return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop), timeouts)
+    try:
+        return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop), timeouts)
+    except OSError as error:
+        transport.abort()
+        raise ConnectionError(f"cannot connect to {host}:{port}: {error}") from error
 
 
 async def take_over(stream: Stream, protocol: asyncio.BaseProtocol) -> bytes:
@@ -188,15 +216,13 @@ def connection_info(
     header: Mapping[str, str],
 ) -> ConnectionInfo:
     """Describe a connection whose handshake is done."""
-    writer = stream.writer
-    sock = writer.get_extra_info("socket")
-    over_ip = stream.transport_name == "TCPROS"
+    sock = stream.writer.get_extra_info("socket")
     return ConnectionInfo(
         name=name,
         direction=direction,
         peer=peer,
-        local=writer.get_extra_info("sockname")[:2] if over_ip else ("", 0),
-        remote=writer.get_extra_info("peername")[:2] if over_ip else ("", 0),
+        local=stream.local,
+        remote=stream.remote,
         fileno=sock.fileno() if sock is not None else -1,
         header=header,
         transport=stream.transport_name,
@@ -272,7 +298,7 @@ class Listener:
     def _new_protocol(self, host: str) -> asyncio.StreamReaderProtocol:
         loop = asyncio.get_running_loop()
         reader = asyncio.StreamReader(loop=loop)
-        return asyncio.StreamReaderProtocol(reader, partial(self._accepted, host), loop=loop)
+        return StreamProtocol(reader, partial(self._accepted, host), loop=loop)
 
     def _accepted(
         self, host: str, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
@@ -313,8 +339,13 @@ def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
         sock.setsockopt(socket.IPPROTO_TCP, option, round(1000 * min(given_up, 3 * _LONGEST)))
 
 
-def _address_text(address: object) -> str:
-    if isinstance(address, tuple) and len(address) >= 2:
-        host, port = address[0], address[1]
-        return f"[{host}]:{port}" if ":" in str(host) else f"{host}:{port}"
-    return str(address)
+def _address(writer: asyncio.StreamWriter, name: str) -> tuple[str, int]:
+    address = writer.get_extra_info(name)
+    if not address:
+        raise ConnectionResetError("connection lost before the handshake")
+    return address[0], address[1]
+
+
+def _address_text(address: tuple[str, int]) -> str:
+    host, port = address
+    return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"

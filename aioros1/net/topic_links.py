@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
+from aioros1.net.ending import shut_down
 from aioros1.net.tcpros import Stream
 from aioros1.wire.frames import FrameError, FrameReceiver
 from aioros1.wire.handshake import TopicOffer
@@ -106,6 +107,7 @@ class IncomingLink(asyncio.BufferedProtocol):
         if exc is not None and self.failure is None:
             self.failure = str(exc)
         self.is_closed = True
+        shut_down(self._transport)
         self._on_closed()
 
     def block_received(self, data: bytes | memoryview) -> None:
@@ -228,6 +230,7 @@ class OutgoingLink(asyncio.Protocol):
             self.failure = str(exc)
         self.is_open = False
         self.is_closed = True
+        shut_down(self._transport)
         self._owner.messages_lost(self)
         self.queue.clear()
         self._unwatch()

@@ -265,6 +265,11 @@ class _Follower:
                     await self._connect_and_receive(backoff)
                 except (HandshakeError, PeerError, OSError, TimeoutError) as error:
                     self._complain(str(error))
+                except Exception as error:  # a fault of ours must not cost the publisher
+                    if repr(error) != self._complaint:
+                        self._complaint = repr(error)
+                        what = f"subscriber {self._subscription.name}: connecting to {self._uri}"
+                        self._context.report(error, what)
                 if not self._leaving:
                     await self._stirred(backoff.delay())
             self._subscription.follower_ended(self._uri)

@@ -35,8 +35,18 @@ class XmlRpcClient:
         self._closed = False
         self._loop_state: LoopState | None = None  # of the loop of the first call
 
-    async def call(self, uri: str, method: str, *params: Any, timeout: float | None = None) -> Any:
+    async def call(
+        self,
+        uri: str,
+        method: str,
+        *params: Any,
+        timeout: float | None = None,
+        any_path: bool = False,
+    ) -> Any:
         """Call ``method(*params)`` at ``uri`` and return the answer, whatever it is.
+
+        Requests go to the path ``/RPC2`` or ``/``, whatever ``uri`` says, unless you pass
+        ``any_path``; see :func:`.server_at`.
 
         ``timeout`` limits the whole call, in seconds; the default is ``Timeouts.xmlrpc``,
         and ``math.inf`` means no limit. Raises
@@ -59,10 +69,10 @@ class XmlRpcClient:
         if get_ident() != self._loop_state.thread_id:
             self._loop_state.check_thread(method)
         try:
-            server = server_at(uri)
+            server = server_at(uri, any_path=any_path)
         except ValueError:
             raise ConnectionError(
-                f"{uri!r} is not the URI of a ROS node or master (http://host:port/)"
+                f"{uri[:200]!r} is not the URI of a ROS node or master (http://host:port/)"
             ) from None
         seconds = self._timeouts.xmlrpc if timeout is None else timeout
         try:
@@ -113,6 +123,7 @@ async def call_triple(
     bare: bool = False,
     read: Callable[[Any], T] = as_it_is,
     timeout: float | None = None,
+    any_path: bool = False,
 ) -> T:
     """Call a method and return what ``read`` makes of the value of its answer.
 
@@ -121,7 +132,7 @@ async def call_triple(
     ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so.
     """
     try:
-        answer = await client.call(uri, method, *params, timeout=timeout)
+        answer = await client.call(uri, method, *params, timeout=timeout, any_path=any_path)
     except XmlRpcFault as fault:
         what = f"{method} at {uri}: {fault.text}"
         raise refused(fault.code, what, is_refusal=False) from fault

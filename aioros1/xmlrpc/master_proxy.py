@@ -70,6 +70,7 @@ class MasterProxy:
             *(self._client, self.uri, method, params, MasterError, MasterUnreachable),
             read=read,
             timeout=self._timeout,
+            any_path=True,  # the user chose this URI
         )
         self.last_seen = time.monotonic()
         return value

@@ -10,6 +10,7 @@ import pytest
 
 from aioros1.net.admission import THIS_HOST, Admission
 from aioros1.net.allow import AllowList
+from aioros1.net.hosts import local_address
 
 LOG = logging.getLogger("aioros1.test")
 
@@ -32,12 +33,42 @@ def door(allow: list[str] | None = None, *, total: int = 100, per_host: int = 10
     )
 
 
-async def test_hosts_are_told_apart_by_address_alone() -> None:
+async def test_hosts_are_told_apart_by_address() -> None:
     admission = door()
     assert admission.enter(*v4("10.0.0.5")) == "10.0.0.5"
     assert admission.enter(*v6("::ffff:10.0.0.5")) == "10.0.0.5"
-    assert admission.enter(*v6("fe80::1%eth0")) == "fe80::1"
-    assert admission.open == 3
+    assert admission.enter(*v4("10.0.0.6")) == "10.0.0.6"
+    assert admission.enter(*v6("2001:db8::1")) == "2001:db8::/64"
+    assert admission.open == 4
+
+
+@pytest.mark.parametrize(
+    "addresses",
+    [
+        ["127.0.0.1", "127.0.0.2", "127.255.3.4", "::1", "::ffff:127.0.0.9"],
+        ["2001:db8::1", "2001:db8::2", "2001:db8::ffff:ffff:ffff:ffff"],
+        ["fe80::1%eth0", "fe80::1%eth1", "fe80::abcd"],
+        ["10.0.0.5", "::ffff:10.0.0.5"],
+    ],
+    ids=["loopback", "an IPv6 subnet", "link-local", "mapped"],
+)
+async def test_one_machine_with_many_addresses_is_one_host(addresses: list[str]) -> None:
+    admission = door(per_host=len(addresses))
+    peers = [(v6 if ":" in address else v4)(address) for address in addresses]
+    hosts = {admission.enter(*peer) for peer in peers}
+    assert len(hosts) == 1
+    assert [admission.enter(*peer) for peer in peers] == [None] * len(peers)
+    assert admission.enter(*v4("10.9.9.9"))
+
+
+async def test_the_addresses_of_this_machine_are_one_host() -> None:
+    address = local_address()
+    if address is None:
+        pytest.skip("this machine has no address but loopback")
+    admission = door(per_host=2)
+    peer = (v6 if ":" in address else v4)(address)
+    assert admission.enter(*v4("127.0.0.1")) == admission.enter(*peer)
+    assert admission.enter(*peer) is admission.enter(*v4("127.0.0.1")) is None
 
 
 async def test_only_what_is_allowed_is_let_in() -> None:
