@@ -317,7 +317,7 @@ async def test_time_in_which_the_loop_was_blocked_is_given_back() -> None:
 async def test_a_loop_that_is_always_blocked_makes_no_limit_endless() -> None:
     async def block() -> None:
         while True:
-            time.sleep(0.01)
+            asyncio.get_running_loop().call_soon(time.sleep, 0.01)
             await asyncio.sleep(0)
 
     blocking = asyncio.create_task(block())

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Awaitable, Mapping
 from typing import Any
 
 from aioros1.core.context import Context
-from aioros1.errors import MasterUnreachable
+from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.node.sim_time import SimTime
 from aioros1.params.params import Params
 from aioros1.topics.topics import Topics
@@ -38,8 +38,8 @@ class Introduction:
         try:
             for key, value in self._private_params.items():
                 await params.set(f"~{key}", value)
-            has_statistics = await params.get("/enable_statistics", False) is True
-            await self._sim_time.ask()
+            has_statistics = await self._told(params.get("/enable_statistics", False)) is True
+            await self._told(self._sim_time.ask())
         except MasterUnreachable:
             return False
         # Everything that may fail, and is then repeated, is done.
@@ -50,3 +50,13 @@ class Introduction:
             statistics = Statistics(context, self._topics, params)
             context.spawn(statistics.run, name=f"{context.name} statistics")
         return True
+
+    async def _told(self, answer: Awaitable[object]) -> object:
+        """What the master tells; None if it is one that cannot."""
+        try:
+            return await answer
+        except MasterUnreachable:
+            raise
+        except MasterError as error:
+            self._context.log.debug("the master does not tell: %s", error)
+            return None

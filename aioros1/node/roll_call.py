@@ -81,7 +81,7 @@ class RollCall:
             is_known = await self._is_known()
             is_forgotten = not is_known and any(map(_is_registered, told.items()))
             found = Found(is_forgotten and self._absences.is_news(None, now))
-            if is_known:
+            if is_known and not any(entry.kind in _LISTED for entry in told):
                 self._absences.end(None)
         if not found.is_forgotten:
             self._confirm(told, now)
@@ -115,6 +115,7 @@ class RollCall:
             if context.name in nodes:
                 is_listed = True
                 self._absences.end(entry)
+                self._absences.end(None)
             if not entry.is_wanted:
                 if context.name in nodes:
                     entry.doubt()
@@ -129,10 +130,9 @@ class RollCall:
         is_known = await self._is_known()
         if self._is_replaced:
             return Found()
-        missing = [entry for entry in absent if self._absences.is_news(entry, now)]
-        if missing and not (is_known and is_listed):
-            return Found(is_forgotten=True)
-        return Found(missing=missing)
+        if not (is_known and is_listed):
+            return Found(is_forgotten=self._absences.is_news(None, now))
+        return Found(missing=[entry for entry in absent if self._absences.is_news(entry, now)])
 
     async def _is_known(self) -> bool:
         """Whether the master knows the node's name."""
