@@ -126,7 +126,7 @@ class Master:
         self._client = XmlRpcClient(timeouts=timeouts, limits=limits)
         self._notifier = Notifier(
             self._client,
-            is_registered=self._registry.knows_api,
+            is_wanted=self._registry.is_wanted,
             on_unwanted=self._unwanted,
         )
         self._api = MasterApi(
