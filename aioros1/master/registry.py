@@ -203,6 +203,18 @@ class Registry:
         """Whether any registered node is at the URI ``api``."""
         return api in self._apis
 
+    def is_wanted(self, message: Notification) -> bool:
+        """Whether the node at ``message.api`` still needs to be told."""
+        if isinstance(message, PublisherUpdate):
+            return message.api in self._subscribers.get(message.topic, {}).values()
+        if isinstance(message, Shutdown):
+            return not self.knows_api(message.api)
+        node = self._nodes.get(message.caller_id)
+        if node is None or node.api != message.api:
+            return False
+        key = message.key
+        return any(key.startswith(each) or each.startswith(key) for each in node.params)
+
     # ------------------------------------------------------------------ inside
 
     def _node(self, caller_id: str, api: str) -> tuple[_Node, list[Notification]]:

@@ -18,6 +18,7 @@ from aioros1.hints import explained
 from aioros1.master.api import MasterApi
 from aioros1.master.notifier import Notifier
 from aioros1.master.parameters import ParameterTree, ParamUpdate
+from aioros1.master.process_id import process_id
 from aioros1.master.registry import Answer, Registry
 from aioros1.names import resolve_from
 from aioros1.net.allow import AllowList, parse_address
@@ -128,7 +129,7 @@ class Master:
         self._client = XmlRpcClient(timeouts=timeouts, limits=limits)
         self._notifier = Notifier(
             self._client,
-            is_registered=self._registry.knows_api,
+            is_wanted=self._registry.is_wanted,
             on_unwanted=self._unwanted,
         )
         self._api = MasterApi(
@@ -208,6 +209,7 @@ class Master:
         self._stack.push_async_callback(self._notifier.close)
         self._stack.push_async_callback(self._server.close)
         await self._server.start(bind, self._port)
+        self._api.pid = process_id(self.port, is_free=not self._port)
         self._uri = self._api.uri = f"http://{uri_host(advertised)}:{self._server.port}/"
         if self._rosout:
             # Imported here because it is a node, which a master alone does not need.

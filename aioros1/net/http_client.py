@@ -95,8 +95,9 @@ class HttpClient:
         self._none_open = Waiters()  # woken when the last connection has ended
         self._sweeper: asyncio.TimerHandle | None = None
 
-    async def post(self, server: Server, body: bytes) -> AnswerReader:
-        """Send ``body`` and return the answer. Raises
+    async def post(self, server: Server, body: bytes, *, counts: bool = True) -> AnswerReader:
+        """Send ``body`` and return the answer. Unless it ``counts``, the request gets a
+        connection even if PER_SERVER requests are in progress. Raises
 
         - :class:`ConnectionError` if the server cannot be reached,
         - :class:`ConnectionResetError` if the connection is lost before the answer,
@@ -109,12 +110,18 @@ class HttpClient:
                 self._sweeper = asyncio.get_running_loop().call_later(IDLE, self._sweep)
         pool.users += 1
         try:
-            async with pool.slots:
+            async with pool.slots if counts else contextlib.nullcontext():
                 answer = await self._post(pool, server, body)
             pool.is_python = b"Python/" in answer.server
             return answer
         finally:
             pool.users -= 1
+
+    def losses(self, server: Server) -> int:
+        """How many kept connections to ``server`` were lost since it was first asked, or asked
+        after a long time."""
+        pool = self._pools.get(server[:2])
+        return 0 if pool is None else pool.losses
 
     def close_idle(self) -> None:
         """Close the connections that no request is using."""
@@ -152,6 +159,7 @@ class HttpClient:
                 # other kept ones may be just as stale.
                 if answer.has_begun:
                     raise
+                pool.losses += 1
                 lost = error
             else:
                 pool.put(connection)
@@ -199,7 +207,7 @@ class HttpClient:
 class _Pool:
     """The connections to one server."""
 
-    __slots__ = ("idle", "is_python", "slots", "users")
+    __slots__ = ("idle", "is_python", "losses", "slots", "users")
 
     def __init__(self) -> None:
         self.is_python = False
@@ -207,6 +215,7 @@ class _Pool:
         self.idle: list[_Connection] = []
         self.slots = asyncio.Semaphore(PER_SERVER)
         self.users = 0  # requests in progress or waiting for a slot
+        self.losses = 0  # connections that the server, or the network, has closed
 
     def take(self) -> _Connection | None:
         """Take the idle connection that was used last."""
@@ -237,6 +246,7 @@ class _Connection(asyncio.Protocol):
         "_answer",
         "_ended",
         "_failure",
+        "_is_aborted",
         "_is_paused",
         "_keeps_alive",
         "_pool",
@@ -253,6 +263,7 @@ class _Connection(asyncio.Protocol):
         self._answer: AnswerReader | None = None  # while it is not complete
         self._failure: Exception | None = None
         self._waiter: asyncio.Future[None] | None = None
+        self._is_aborted = False  # by this side
         self._is_paused = False
         self._keeps_alive = False
         self.idle_since = 0.0
@@ -295,6 +306,7 @@ class _Connection(asyncio.Protocol):
 
     def abort(self) -> None:
         """Close at once."""
+        self._is_aborted = True
         self._transport.abort()
 
     async def _send(self, head: bytes, body: bytes) -> bool:
@@ -340,6 +352,8 @@ class _Connection(asyncio.Protocol):
         self._ended(self)
         if self in self._pool.idle:
             self._pool.idle.remove(self)
+            if not self._is_aborted:
+                self._pool.losses += 1
         self._is_paused = False
         self._end(ConnectionResetError(f"connection lost: {exc or 'the server closed it'}"))
 

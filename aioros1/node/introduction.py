@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Awaitable
+
 from aioros1.core.context import Context
 from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.events import Broadcast, Event, EventStream, MasterRestarted
@@ -45,8 +47,8 @@ class Introduction:
         try:
             for key, value in self._private_params.items():
                 await params.set(f"~{key}", value)
-            has_statistics = await params.get("/enable_statistics", False) is True
-            await self._sim_time.ask()
+            has_statistics = await self._told(params.get("/enable_statistics", False)) is True
+            await self._told(self._sim_time.ask())
         except MasterUnreachable:
             return False
         # Everything that may fail, and is then repeated, is done.
@@ -77,3 +79,13 @@ class Introduction:
                 except MasterError as error:
                     self._context.log.warning("cannot set a private parameter: %s", error)
                     break
+
+    async def _told(self, answer: Awaitable[object]) -> object:
+        """What the master tells; None if it is one that cannot."""
+        try:
+            return await answer
+        except MasterUnreachable:
+            raise
+        except MasterError as error:
+            self._context.log.debug("the master does not tell: %s", error)
+            return None

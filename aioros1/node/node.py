@@ -16,7 +16,7 @@ from aioros1.core.address import Address
 from aioros1.core.awaited import awaits_caller
 from aioros1.core.context import Context
 from aioros1.core.registration import Terms
-from aioros1.core.registrations import AT_ONCE, Registrations
+from aioros1.core.registrations import Registrations
 from aioros1.core.role import Role
 from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
@@ -214,9 +214,10 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
                     node_name=self.name,
                     master_uri=self.master_uri,
                     patience=timeouts.xmlrpc,
-                    slots=asyncio.Semaphore(AT_ONCE),
                     supervisor=supervisor,
                     emit=events.publish,
+                    warn=self.log.warning,
+                    on_silence=xmlrpc.close_idle,
                 )
             ),
         )

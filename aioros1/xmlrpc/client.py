@@ -19,9 +19,24 @@ from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
 from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault, decode_response, encode_call
 
-__all__ = ["XmlRpcClient", "as_it_is", "call_triple"]
+__all__ = [
+    "HttpStatusError",
+    "XmlRpcClient",
+    "as_it_is",
+    "call_triple",
+    "is_answer",
+    "is_judgement",
+]
 
 T = TypeVar("T")
+
+
+class HttpStatusError(XmlRpcError):
+    """A server answered with an HTTP ``status`` other than 200."""
+
+    def __init__(self, text: str, status: int) -> None:
+        super().__init__(text)
+        self.status = status
 
 
 class XmlRpcClient:
@@ -49,13 +64,16 @@ class XmlRpcClient:
         ``any_path``; see :func:`.server_at`.
 
         ``timeout`` limits the whole call, in seconds; the default is ``Timeouts.xmlrpc``,
-        and ``math.inf`` means no limit. Raises
+        and ``math.inf`` means no limit. Calls without a limit do not count in the number of
+        connections to one server: each could hold one for ever. Their number is up to the
+        caller. Raises
 
         - :class:`TimeoutError` after that time,
         - :class:`ConnectionError` if the server cannot be reached, and
           :class:`ConnectionResetError` if the connection is lost before the answer,
         - :class:`.XmlRpcFault` if the server answers with a fault,
-        - :class:`.XmlRpcError` if the answer is not XML-RPC, or too large,
+        - :class:`.XmlRpcError` if the answer is not XML-RPC, or too large;
+          :class:`.HttpStatusError` if it has an HTTP status other than 200,
         - :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for parameters
           that cannot be sent (see :func:`.encode_call`), before anything is sent,
         - :class:`~aioros1.ClosedError` after :meth:`close`,
@@ -75,11 +93,13 @@ class XmlRpcClient:
                 f"{uri[:200]!r} is not the URI of a ROS node or master (http://host:port/)"
             ) from None
         seconds = self._timeouts.xmlrpc if timeout is None else timeout
+        limit = None if seconds == math.inf else seconds
         try:
-            async with self._deadlines.limit(None if seconds == math.inf else seconds, "no answer"):
-                answer = await self._http.post(server, body)
+            async with self._deadlines.limit(limit, "no answer"):
+                answer = await self._http.post(server, body, counts=limit is not None)
             if answer.status != 200:
-                raise XmlRpcError(f"HTTP status {answer.status} {answer.reason}")
+                what = f"HTTP status {answer.status} {answer.reason}"
+                raise HttpStatusError(what, answer.status)
             limits = self._limits
             return decode_response(
                 answer.body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
@@ -92,8 +112,21 @@ class XmlRpcClient:
             raise ConnectionResetError(f"{method} at {uri}: {error}") from error
         except ConnectionError as error:
             raise ConnectionError(f"{method} at {uri}: {error}") from error
+        except HttpStatusError as error:
+            raise HttpStatusError(f"{method} at {uri}: {error}", error.status) from None
         except (HttpError, XmlRpcError) as error:
             raise XmlRpcError(f"{method} at {uri}: {error}") from None
+
+    def losses(self, uri: str) -> int:
+        """How many kept connections to the server at ``uri`` were lost, as far as it is known.
+
+        Servers keep connections while they live, so a loss may mean that another one has taken
+        the place of this one.
+        """
+        try:
+            return self._http.losses(server_at(uri))
+        except ValueError:
+            return 0
 
     def close_idle(self) -> None:
         """Close the connections that are idle now, because they may all be dead."""
@@ -105,6 +138,17 @@ class XmlRpcClient:
         self._deadlines.expire()
         await self._deadlines.wait_ended()
         await self._http.close()
+
+
+def is_answer(error: MasterError | PeerError) -> bool:
+    """Whether whoever is at the URI answers XML-RPC, whatever it has answered."""
+    is_silent = isinstance(error, MasterUnreachable | PeerUnreachable)
+    return not is_silent and not isinstance(error.__cause__, XmlRpcError)
+
+
+def is_judgement(error: MasterError | PeerError) -> bool:
+    """Whether the other side has judged the request: it refused, or raised a fault."""
+    return error.is_refusal or isinstance(error.__cause__, XmlRpcFault)
 
 
 def as_it_is(value: Any) -> Any:
