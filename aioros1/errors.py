@@ -11,7 +11,8 @@
     │   ├── DeserializationError
     │   └── Md5MismatchError
     ├── MasterError
-    │   └── MasterUnreachable (ConnectionError)
+    │   ├── MasterUnreachable (ConnectionError)
+    │   └── NodeNotFound (LookupError)
     ├── PeerError
     │   └── PeerUnreachable (ConnectionError)
     ├── HandshakeError
@@ -22,6 +23,9 @@
 
 Waiting too long raises the builtin :class:`TimeoutError`, reading an empty queue
 :class:`asyncio.QueueEmpty`, and writing to a full one :class:`asyncio.QueueFull`.
+
+What a peer said becomes part of an error only as :func:`~aioros1.quoting.printable` shows it,
+so the text of an error is one line of bounded length, whoever wrote it.
 """
 
 from __future__ import annotations
@@ -31,6 +35,7 @@ from os import PathLike
 from typing import Self
 
 from aioros1._public import public
+from aioros1.quoting import printable
 
 __all__ = [
     "ClosedError",
@@ -43,6 +48,7 @@ __all__ = [
     "MessageError",
     "MessageNotFoundError",
     "MessageSpecError",
+    "NodeNotFound",
     "PeerError",
     "PeerUnreachable",
     "RosError",
@@ -53,9 +59,20 @@ __all__ = [
 ]
 
 
+_LONGEST = 2000
+"""Characters of the whole text of an error, which may quote several things."""
+
+
 @public
 class RosError(Exception):
-    """The base of all errors of this library."""
+    """The base of all errors of this library.
+
+    Its text is one line. Line ends and other invisible characters in it are escaped, since
+    parts of it may come from a peer, and it is cut after 2,000 characters.
+    """
+
+    def __str__(self) -> str:
+        return printable(super().__str__(), _LONGEST)
 
 
 @public
@@ -83,9 +100,10 @@ class MessageNotFoundError(MessageError, LookupError):
         self.places = places
 
     def __str__(self) -> str:
+        text = printable(self.text, _LONGEST)
         if self.places is None:
-            return self.text
-        return f"{self.text}; searched: {', '.join(self.places) or 'no directory'}"
+            return text
+        return f"{text}; searched: {', '.join(self.places) or 'no directory'}"
 
 
 @public
@@ -130,6 +148,7 @@ class MasterError(RosError):
     """
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
+        status = printable(status, _LONGEST)
         super().__init__(code, status)
         self.code = code
         self.status = status
@@ -141,16 +160,27 @@ class MasterError(RosError):
 
 @public
 class MasterUnreachable(MasterError, ConnectionError):
-    """No master answers at the master's URI."""
+    """No master answers at the master's URI.
 
-    def __init__(self, status: str) -> None:
+    ``status`` says what was tried and what came of it, and ``advice`` what you can do.
+    ``was_sent`` is False if the request certainly never reached a master.
+    """
+
+    def __init__(self, status: str, *, advice: str = "", was_sent: bool = True) -> None:
         super().__init__(-1, status, is_refusal=False)
+        self.advice = advice
+        self.was_sent = was_sent
 
-    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
-        return type(self), (self.status,)
+    def __reduce__(self) -> tuple[type[Self], tuple[str], dict[str, object]]:
+        return type(self), (self.status,), vars(self)
 
     def __str__(self) -> str:
-        return self.status
+        return f"{self.status}; {self.advice}" if self.advice else self.status
+
+
+@public
+class NodeNotFound(MasterError, LookupError):
+    """The master knows no node of that name."""
 
 
 @public
@@ -158,6 +188,7 @@ class PeerError(RosError):
     """Another node refused a request of the slave API; like :class:`MasterError`."""
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
+        status = printable(status, _LONGEST)
         super().__init__(code, status)
         self.code = code
         """0 or -1 from the answer, or the code of an XML-RPC fault."""
@@ -194,6 +225,7 @@ class HandshakeError(RosError):
     """
 
     def __init__(self, peer: str, text: str) -> None:
+        peer, text = printable(peer), printable(text, _LONGEST)
         super().__init__(peer, text)
         self.peer = peer
         self.text = text
@@ -204,11 +236,17 @@ class HandshakeError(RosError):
 
 @public
 class ServiceError(RosError):
-    """A service call failed; ``text`` is what the server said."""
+    """A service call failed; ``text`` is what the server said, as it said it.
+
+    The text of the error itself is safe to log, as that of every :class:`RosError`.
+    """
 
     def __init__(self, text: str) -> None:
-        super().__init__(text)
+        super().__init__(printable(text, _LONGEST))
         self.text = text
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
+        return type(self), (self.text,)
 
 
 @public

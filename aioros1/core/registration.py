@@ -154,7 +154,8 @@ class Registration:
                 )
             about, failure = work.result()
             if failure is not None and about is wanted:
-                raise failure
+                # Without the way it came, through a task that the caller does not know.
+                raise failure.with_traceback(None) from None
 
     async def _take_back(self, waits: bool) -> None:
         if self._work is None and not self.is_behind:
@@ -215,7 +216,7 @@ class Registration:
             self._is_at_master = wanted
         except MasterUnreachable as error:
             failure = error
-            if type(error.__cause__) is ConnectionError:  # the request never reached a master
+            if not error.was_sent:
                 self._is_at_master = before
         except MasterError as error:
             failure = error

@@ -28,6 +28,7 @@ VALUES = (
     "errors",
     "time",
     "names",
+    "quoting",
     "options",
     "connection",
     "waiting",
