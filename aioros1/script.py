@@ -10,7 +10,7 @@ from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
-from aioros1 import ClosedError, Node
+from aioros1 import ClosedError, MasterUnreachable, Node
 from aioros1._public import public
 
 __all__ = ["run"]
@@ -40,14 +40,35 @@ def run(
     SIGINT and SIGTERM close the node. Loops over roles and rates then end, and ``main``
     usually returns; if it does not, it is cancelled, and the result is None. A second signal
     cancels it at once. A signal while the node starts stops the start, and the result is None.
+
+    Without a master, what ``main`` asks of it waits until one answers, and a line on standard
+    error says so (``without_master="wait"``). With ``without_master="raise"``, and after
+    ``main`` has raised :class:`~aioros1.MasterUnreachable`, the script ends with that one line
+    and status 1.
+
     Use this function only in scripts: no other part of the library touches signals.
     """
     if name is None:
         name = Path(sys.argv[0]).stem or "aioros1"
     node_options.setdefault("argv", sys.argv[1:])
+    node_options.setdefault("without_master", "wait")
     node = Node(name, **node_options)
-    with _log_file(node), asyncio.Runner(loop_factory=loop_factory) as runner:
-        return runner.run(_run(main, node))
+    try:
+        with _log_file(node), asyncio.Runner(loop_factory=loop_factory) as runner:
+            return runner.run(_run(main, node))
+    except (MasterUnreachable, ExceptionGroup) as error:
+        if (missing := _missing_master(error)) is None:
+            raise
+        raise SystemExit(f"{node.name}: {missing}") from None
+
+
+def _missing_master(error: Exception) -> Exception | None:
+    """The error that there is no master, if ``error``, alone or as a group, says only that."""
+    while isinstance(error, ExceptionGroup):
+        if error.split(MasterUnreachable)[1] is not None:
+            return None
+        error = error.exceptions[0]
+    return error
 
 
 async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T | None:

@@ -82,8 +82,11 @@ class Registration:
         self._is_established = False
         self.forget()
 
-    async def acquire(self) -> None:
+    async def acquire(self, *, may_defer: bool = False) -> bool:
         """Add a user; return when the master has accepted the registration.
+
+        With ``may_defer``, and without an answer of the master, the user stays: the heartbeat
+        registers the entry when a master is there. Returns False then, otherwise True.
 
         Raises the master's error, and :class:`~aioros1.MasterUnreachable` when the answer
         takes longer than ``timeouts.xmlrpc``. After an error or a cancellation, nothing stays
@@ -96,7 +99,10 @@ class Registration:
         try:
             if self.users == 1 or not self._is_established:
                 await self._settle(True)
+            return True
         except BaseException as error:
+            if may_defer and isinstance(error, MasterUnreachable):
+                return False
             self.users -= 1
             if not self.users:
                 await self._take_back(isinstance(error, asyncio.CancelledError))

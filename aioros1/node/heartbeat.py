@@ -67,9 +67,12 @@ class Heartbeat:
         except (MasterError, ClosedError) as error:
             if not self._is_lost and not self._is_stopped:
                 self._is_lost = True
+                if self._identity is None:
+                    return  # there was none that could be lost
                 uri = context.master.uri
-                context.log.warning("lost the master at %s: %s", uri, error)
-                context.emit(MasterLost(uri, str(error)))
+                reason = error.status if isinstance(error, MasterError) else str(error)
+                context.log.warning("lost the master at %s: %s", uri, reason)
+                context.emit(MasterLost(uri, reason))
             return
         known, self._identity = self._identity, identity
         was_lost, self._is_lost = self._is_lost, False

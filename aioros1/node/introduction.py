@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from aioros1.core.context import Context
-from aioros1.errors import MasterUnreachable
+from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.node.sim_time import SimTime
 from aioros1.params.params import Params
 from aioros1.topics.topics import Topics
+from aioros1.waiting import Mutex
 
 __all__ = ["Introduction"]
 
@@ -31,9 +32,25 @@ class Introduction:
         self._params = params
         self._sim_time = sim_time
         self._private_params = private_params
+        self._mutex = Mutex()
+        self._is_made = False
 
-    async def was_made(self) -> bool:
-        """Make the introduction; return whether the master answered throughout."""
+    async def make(self) -> bool:
+        """Make the introduction, once in the life of a node; return whether it is made.
+
+        It is not if the master does not answer throughout. Then call this again.
+        """
+        if not self._is_made:
+            async with self._mutex:
+                if not self._is_made:
+                    try:
+                        self._is_made = await self._was_made()
+                    except MasterError:
+                        self._is_made = True  # it was refused, and would be again
+                        raise
+        return self._is_made
+
+    async def _was_made(self) -> bool:
         params = self._params
         try:
             for key, value in self._private_params.items():

@@ -57,8 +57,8 @@ class Rosout(SilentHandler):
         """Whether subscribers of the first records may still be connecting."""
         self._progress = Waiters()
         # As rosout does; the application's own handlers decide what else it shows.
-        levels.set_default(context.log.logger, logging.INFO)
-        self._loggers = topmost(context.log.names)
+        levels.set_default(logging.getLogger(context.loggers[0]), logging.INFO)
+        self._loggers = topmost(context.loggers)
         for logger in self._loggers:
             logger.addHandler(self)
 
@@ -137,7 +137,7 @@ class Rosout(SilentHandler):
 
     def _is_of_another(self, record: logging.LogRecord) -> bool:
         """Whether it comes from a node whose name, and thus its logger, is below ours."""
-        own, name = self._context.log.logger.name, self._context.name
+        own, name = self._context.loggers[0], self._context.name
         if f"{record.name}.".startswith(f"{own}."):
             # The handler of the nearest node is called first.
             record.__dict__.setdefault("ros_node", name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Unpack, overload
 
+from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
 from aioros1.idl import Message
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
@@ -33,6 +34,7 @@ class _CallerKeywords(TypedDict, total=False):
 class ServiceMethods:
     """The service methods of :class:`~aioros1.Node`."""
 
+    _contact: Contact
     _services: Services
 
     @overload
@@ -86,7 +88,7 @@ class ServiceMethods:
         provides the service.
         """
         options = ServiceProviderOptions(max_concurrency=max_concurrency, raw=raw)
-        opening = self._services.advertise(name, type, handler, options)
+        opening = self._services.advertise(name, type, handler, options, self._contact.policy)
         return Opening(opening, f"provider of service {name}")
 
     @overload
@@ -182,7 +184,7 @@ class ServiceMethods:
         :class:`~aioros1.HandshakeError` when it refuses, :class:`~aioros1.MasterError`,
         :class:`~aioros1.InvalidNameError` and :class:`~aioros1.ClosedError`.
         """
-        return await self._services.type_of(name)
+        return await self._contact.reach(lambda: self._services.type_of(name))
 
     async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
         """Wait until a service is registered and its provider answers.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Unpack, overload
 
+from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
 from aioros1.idl import Message
 from aioros1.options import DEFAULT_QUEUE_SIZE, Overflow
@@ -40,6 +41,7 @@ class _SubscriberKeywords(TypedDict, total=False):
 class TopicMethods:
     """The topic methods of :class:`~aioros1.Node`."""
 
+    _contact: Contact
     _topics: Topics
 
     @overload
@@ -75,7 +77,8 @@ class TopicMethods:
             tcp_nodelay=tcp_nodelay,
             headers=headers,
         )
-        return Opening(self._topics.advertise(topic, type, options), f"publisher {topic}")
+        opening = self._topics.advertise(topic, type, options, self._contact.policy)
+        return Opening(opening, f"publisher {topic}")
 
     @overload
     def subscribe(
@@ -160,7 +163,7 @@ class TopicMethods:
         )
         if callback is not None and not callable(callback):
             raise TypeError(f"subscriber {topic}: the callback is a function, got {callback!r}")
-        opening = self._topics.subscribe(topic, type, callback, options)
+        opening = self._topics.subscribe(topic, type, callback, options, self._contact.policy)
         return Opening(opening, f"subscriber {topic}")
 
     @overload

@@ -67,10 +67,11 @@ class FollowedParam(Shared[Following]):
         was_followed = self.registration.is_established
         value = await context.registrar.subscribe_param(self.name, context.address.uri)
         if updates == self._updates and value != self.value:
-            if was_followed:
+            if was_followed or self.was_deferred:
                 self.update(self.name, value)  # it changed while the master was away
             else:
                 self.value = value
+        self.was_deferred = False
 
     async def _unregister(self) -> None:
         context = self._context

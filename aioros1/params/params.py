@@ -9,6 +9,7 @@ from typing import Any
 
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.options import WithoutMaster
 from aioros1.params.followed import FollowedParam
 from aioros1.params.subscriber import ParamSubscriber
 from aioros1.wire.xmlrpc import decode_response, encode_response
@@ -27,7 +28,9 @@ class Params:
         # Changes on their way to the master whose callers were cancelled.
         self._left_alone: set[asyncio.Future[Exception | None]] = set()
 
-    async def subscribe(self, key: str, default: Any) -> ParamSubscriber:
+    async def subscribe(
+        self, key: str, default: Any, without_master: WithoutMaster = "raise"
+    ) -> ParamSubscriber:
         """See :meth:`aioros1.Node.subscribe_param`."""
         context = self._context
         key = self._key(key)
@@ -35,7 +38,7 @@ class Params:
         if followed is None:
             followed = FollowedParam(context, key, self.followed)
         subscriber = ParamSubscriber(context, followed, default)
-        await followed.acquire(subscriber)
+        await followed.acquire(subscriber, without_master)
         await context.admit(subscriber, subscriber._abort)
         subscriber._begin()
         return subscriber

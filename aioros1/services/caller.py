@@ -303,7 +303,7 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     async def _connect(self) -> CallerConnection:
         context, options = self._context, self.options
-        self.provider_uri = await look_up(context, self.name)
+        self.provider_uri = await context.contact.reach(lambda: look_up(context, self.name))
         connection = await connect_to(
             context,
             self.provider_uri,

@@ -8,6 +8,7 @@ from typing import Any
 from aioros1.core.context import Context
 from aioros1.errors import HandshakeError
 from aioros1.net.tcpros import Stream
+from aioros1.options import WithoutMaster
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
 from aioros1.services.lookup import probe, service_class_of, type_of
 from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
@@ -35,6 +36,7 @@ class Services:
         type: Any,
         handler: Handler[Any, Any] | None,
         options: ServiceProviderOptions,
+        without_master: WithoutMaster = "raise",
     ) -> ServiceProvider[Any, Any]:
         """See :meth:`aioros1.Node.advertise_service`."""
         context = self._context
@@ -63,7 +65,7 @@ class Services:
             context, provision, service_class, options
         )
         try:
-            await provision.acquire(provider)
+            await provision.acquire(provider, without_master)
         except BaseException:
             provider._abort()  # there may be calls already
             raise
@@ -82,7 +84,7 @@ class Services:
             service_class = None
         else:
             async with deadline(options.timeout, f"service {name}: no answer"):
-                header = await probe(context, name, self._probes)
+                header = await context.contact.reach(lambda: probe(context, name, self._probes))
             service_class = service_class_of(context, name, header)
         caller: ServiceCaller[Any, Any] = ServiceCaller(context, name, service_class, options)
         return await context.admit(caller, caller._abort)

@@ -8,6 +8,7 @@ from aioros1.core.context import Context
 from aioros1.errors import HandshakeError
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream
+from aioros1.options import WithoutMaster
 from aioros1.topics.options import PublisherOptions, SubscriberOptions
 from aioros1.topics.publication import Publication
 from aioros1.topics.publisher import Publisher
@@ -34,7 +35,13 @@ class Topics:
         self._local = local
         self._on_received: OnReceived | None = None
 
-    async def advertise(self, topic: str, type: Any, options: PublisherOptions) -> Publisher[Any]:
+    async def advertise(
+        self,
+        topic: str,
+        type: Any,
+        options: PublisherOptions,
+        without_master: WithoutMaster = "raise",
+    ) -> Publisher[Any]:
         """See :meth:`aioros1.Node.advertise`."""
         context = self._context
         context.check_open()
@@ -47,11 +54,16 @@ class Topics:
         if publication is None or publication.message_class._md5sum != message_class._md5sum:
             publication = Publication(context, topic, self.publications, message_class)
         publisher: Publisher[Any] = Publisher(context, publication, message_class, options)
-        await publication.acquire(publisher)
+        await publication.acquire(publisher, without_master)
         return await context.admit(publisher, publisher._abort)
 
     async def subscribe(
-        self, topic: str, type: Any, callback: Callback | None, options: SubscriberOptions
+        self,
+        topic: str,
+        type: Any,
+        callback: Callback | None,
+        options: SubscriberOptions,
+        without_master: WithoutMaster = "raise",
     ) -> Subscriber[Any]:
         """See :meth:`aioros1.Node.subscribe`."""
         context = self._context
@@ -68,7 +80,7 @@ class Topics:
         subscriber: Subscriber[Any] = Subscriber(
             context, subscription, message_class, callback, options
         )
-        await subscription.acquire(subscriber)
+        await subscription.acquire(subscriber, without_master)
         await context.admit(subscriber, subscriber._abort)
         subscriber._begin()
         return subscriber
@@ -78,7 +90,9 @@ class Topics:
         options = SubscriberOptions(queue_size=1, overflow="drop_newest")
         async with (
             deadline(timeout, f"no message on {self._context.resolve_name(topic)}"),
-            await self.subscribe(topic, type, None, options) as subscriber,
+            await self.subscribe(
+                topic, type, None, options, self._context.contact.policy
+            ) as subscriber,
         ):
             return await subscriber.get()
 

@@ -77,8 +77,9 @@ class XmlRpcClient:
             )
         except TimeoutError as error:
             if self._closed:
-                text = "the client was closed"
-                raise ConnectionAbortedError(f"{_place(method, uri)}: {text}") from None
+                raise ConnectionAbortedError(
+                    f"{_place(method, uri)}: the client was closed"
+                ) from None
             raise TimeoutError(f"{_place(method, uri)}: {error}") from None
         except ConnectionResetError as error:
             raise ConnectionResetError(f"{_place(method, uri)}: {error}") from None
