@@ -49,7 +49,8 @@ class ConnectionInfo:
     """Whether messages come in, go out, or both (services)."""
 
     peer: str
-    """The caller id of the other side; if that is a publisher, the URI of its node."""
+    """The caller id of the other side; if that is a publisher, the URI of its node. What is
+    no visible character in it is escaped, and it is cut after 300 characters."""
 
     local: tuple[str, int]
     """The address and port on our side; ``("", 0)`` if the transport is not TCP."""

@@ -17,15 +17,17 @@ _LONGEST = 1000
 """Characters of one value in a record."""
 
 
-class LibraryLog(logging.LoggerAdapter[NodeLog]):
-    """Logs where ``node.log`` does. Every part of a node uses it, and none uses ``node.log``.
+class LibraryLog(logging.LoggerAdapter[Any]):
+    """Logs to ``log``, for example where ``node.log`` does.
+
+    Every part of a node uses one, and none uses ``node.log`` itself.
 
     Much of what the library logs was said by peers. Each value is therefore shown on one line
     of bounded length: no peer can forge a line, here or on ``/rosout``, whichever part forgets
     that. What may come again and again is logged by :meth:`complain`.
     """
 
-    def __init__(self, log: NodeLog, repeats: Repeats | None = None) -> None:
+    def __init__(self, log: logging.Logger | NodeLog, repeats: Repeats | None = None) -> None:
         super().__init__(log, {})
         self._repeats = repeats if repeats is not None else Repeats()
         self._timer: asyncio.TimerHandle | None = None

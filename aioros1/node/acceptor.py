@@ -60,7 +60,7 @@ class Acceptor:
         self._listener.close()
 
     async def _serve(self, stream: Stream) -> None:
-        context = self._context
+        context, log = self._context, self._context.log
         server = Server(
             stream.peer,
             max_bytes=context.limits.header_bytes,
@@ -72,12 +72,13 @@ class Acceptor:
             assert serve is not None
             await serve(stream, server)
         except HandshakeError as error:
-            # A peer that connects while the node closes does not know that yet.
-            log = context.log.warning if context.is_open else context.log.debug
-            log("refused a connection of %s", error)
+            if context.is_open:  # or else the peer does not know yet that the node closes
+                host = stream.peer.rpartition(":")[0]
+                about = (server.caller_id, host, error.text)
+                log.complain("refused a connection of %s: %s", server.peer, error.text, about=about)
             await self._refuse(stream, server.refuse(error.text))
         except TimeoutError as error:
-            context.log.warning("refused a connection: %s", error)
+            log.complain("refused a connection: %s", error, about=stream.peer.rpartition(":")[0])
             await self._refuse(stream, server.refuse(str(error)))
         except OSError:
             pass  # it closed before it was served

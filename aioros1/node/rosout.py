@@ -77,7 +77,7 @@ class Rosout(SilentHandler):
         while self._publisher is None:
             try:
                 self._publisher = await self._topics.advertise(
-                    "/rosout", "rosgraph_msgs/Log", options
+                    "/rosout", "rosgraph_msgs/Log", options, warns=False
                 )
             except MasterError:
                 self._expect(False)

@@ -91,6 +91,12 @@ class ParamSubscriber(Role):
 
     def _put(self, update: ParamUpdate) -> None:
         if len(self._updates) == self._updates.maxlen:
+            if not self.stats.dropped:
+                self._context.log.warning(
+                    "parameter subscriber %s: an update was dropped, because %s wait to be taken. "
+                    "`value` is right all the same. Further drops are only counted, in `stats`",
+                    *(self.name, self._updates.maxlen),
+                )
             self.stats.dropped += 1
         self._updates.append(update)
         self.stats.messages += 1

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from aioros1._public import public
 from aioros1.errors import ClosedError, ServiceError
+from aioros1.quoting import printable
 from aioros1.services.side import Side
 
 if TYPE_CHECKING:
@@ -72,4 +73,4 @@ class ServiceCall(Generic[Q, A]):
 
     def __repr__(self) -> str:
         state = "answered" if self._answer.done() else "waits for an answer"
-        return f"<ServiceCall of {self.caller_id}, {state}>"
+        return f"<ServiceCall of {printable(self.caller_id)}, {state}>"

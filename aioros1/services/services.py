@@ -9,6 +9,7 @@ from aioros1.core.context import Context
 from aioros1.errors import HandshakeError
 from aioros1.net.tcpros import Stream
 from aioros1.options import WithoutMaster
+from aioros1.quoting import printable
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
 from aioros1.services.lookup import probe, service_class_of, type_of
 from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
@@ -126,7 +127,8 @@ class Services:
         provision = self.provisions.get(server.service or "")
         if provision is None:
             name = self._context.name
-            raise HandshakeError(name, f"{name} has no service {server.service}")
+            service = printable(server.service)
+            raise HandshakeError(server.peer, f"{name} has no service {service}")
         await provision.serve(stream, server)
 
     def abort(self) -> None:

@@ -15,12 +15,13 @@ the graph sees them as one. This is the sending half of the data path:
 from __future__ import annotations
 
 import asyncio
+from collections import Counter
 from typing import TYPE_CHECKING, Protocol
 
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
-from aioros1.errors import Md5MismatchError
+from aioros1.errors import HandshakeError, Md5MismatchError
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
 from aioros1.waiting import Waiters
@@ -42,6 +43,8 @@ class Publishing(Protocol):
     stats: RoleStats
     _latched: Frame | None
     """The message that every new subscriber gets first."""
+    _warns: bool
+    """Whether to warn of the first message that is dropped."""
 
     @property
     def is_open(self) -> bool: ...
@@ -77,6 +80,8 @@ class Publication(Shared[Publishing]):
         self.has_subscribers = False
         self.known_subscribers = 0
         """How many subscribers the master named when this was last registered."""
+        self.refusal = ""
+        """Why a subscriber was refused last; empty if none was."""
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
@@ -164,6 +169,15 @@ class Publication(Shared[Publishing]):
         if self._waiting(link, publisher) < publisher.options.queue_size:
             link.queue.append((frame, publisher))
             return
+        if not publisher.stats.dropped:
+            self._first_drop(
+                publisher,
+                "publisher %s: a message for %s was dropped, because %s wait for it already "
+                "(queue_size, with overflow=%s). `await send()` waits for room. Further drops are "
+                "only counted, in `dropped`",
+                *(self.name, link.info.peer, publisher.options.queue_size),
+                repr(publisher.options.overflow),
+            )
         publisher.stats.dropped += 1
         link.info.stats.dropped += 1
         if publisher.options.overflow == "drop_oldest":
@@ -172,6 +186,10 @@ class Publication(Shared[Publishing]):
                     del link.queue[index]
                     break
             link.queue.append((frame, publisher))
+
+    def _first_drop(self, publisher: Publishing, text: str, *args: object) -> None:
+        if publisher._warns:
+            self._context.log.warning(text, *args)
 
     def _flush(self) -> None:
         pending = self._pending
@@ -200,10 +218,14 @@ class Publication(Shared[Publishing]):
         headers: dict[str, str] = {}
         for publisher in self.roles:
             headers.update(publisher.options.headers or {})
-        answer = server.accept_topic(context.name, offer, headers)
+        try:
+            answer = server.accept_topic(context.name, offer, headers)
+        except HandshakeError as error:
+            self.refusal = error.text
+            raise
         theirs = server.header.get("type", "*")
         if theirs not in ("*", offer.type):
-            context.log.warning(
+            context.log.complain(
                 "%s subscribes to %s as %s, but it is %s; accepted, as their md5sums are the same",
                 *(server.caller_id, offer.topic, theirs, offer.type),
             )
@@ -250,6 +272,17 @@ class Publication(Shared[Publishing]):
         self._look()
 
     def messages_lost(self, link: OutgoingLink) -> None:
+        lost = Counter(publisher for _, publisher in link.queue)
+        for publisher, count in lost.items():
+            if not publisher.stats.dropped:
+                self._first_drop(
+                    publisher,
+                    "publisher %s: the connection to %s has ended, and with it %s of its messages "
+                    "(queue_size=%s, overflow=%s) that waited there. Further losses are only "
+                    "counted, in `dropped`",
+                    *(self.name, link.info.peer, count, publisher.options.queue_size),
+                    repr(publisher.options.overflow),
+                )
         for _, publisher in link.queue:
             publisher.stats.dropped += 1
             link.info.stats.dropped += 1
@@ -259,8 +292,8 @@ class Publication(Shared[Publishing]):
         self._slow = tuple(other for other in self._slow if other is not link)
         self._look()
         if link.stalled:
-            self._context.log.warning(
-                "publisher %s: %s was cut off, because %s",
+            self._context.log.complain(
+                "publisher %s: %s was cut off, because %s; what waited for it is lost",
                 *(self.name, link.info.peer, link.failure),
             )
         self._context.connections.remove(link, link.failure)

@@ -48,6 +48,8 @@ class Publisher(Role, Generic[M]):
         publication: Publication,
         message_class: type[M],
         options: PublisherOptions,
+        *,
+        warns: bool = True,
     ) -> None:
         super().__init__(context, publication.name)
         self.options = options
@@ -55,6 +57,7 @@ class Publisher(Role, Generic[M]):
         self.message_class = message_class
         """The class of its messages."""
         self._latched: Frame | None = None  # the message that every new subscriber gets first
+        self._warns = warns  # of the first message that is dropped
         self._publication = publication
         self._blocks = options.overflow == "block"
         self._latches = options.latch

@@ -7,7 +7,7 @@ import functools
 import inspect
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1._public import public
@@ -41,11 +41,11 @@ class MessageEvent(Generic[M]):
 
     message: M
     """The message itself."""
-    header: Mapping[str, str]
+    header: Mapping[str, str] = field(repr=False)
     """The connection header of the publisher; ``header["callerid"]`` is its name."""
     received: Time
     """When the message was read from the socket, by the node's clock."""
-    raw: bytes
+    raw: bytes = field(repr=False)
     """The serialised message."""
 
 
@@ -74,6 +74,8 @@ class Subscriber(Role, Generic[M]):
         message_class: type[Message] | None,
         callback: Callback | None,
         options: SubscriberOptions,
+        *,
+        warns: bool = True,
     ) -> None:
         super().__init__(context, subscription.name)
         self.options = options
@@ -82,6 +84,7 @@ class Subscriber(Role, Generic[M]):
         """The class of its messages; None for a subscriber to any type."""
         self.callback = callback
         """The callback for each message; None if you take the messages yourself."""
+        self._warns = warns  # of the first message that is dropped
         self._subscription = subscription
         self._md5sum = "*" if message_class is None else message_class._md5sum
         self._decode: Decoder = decoder_for(
@@ -355,6 +358,8 @@ class Subscriber(Role, Generic[M]):
         if len(frames) <= room and not self._backlog:
             queue.extend(frames)
         elif self.options.overflow == "drop_oldest":
+            if not stats.dropped:
+                self._first_drop(len(frames) - room)
             stats.dropped += len(frames) - room
             if len(frames) >= size:
                 queue.clear()
@@ -364,6 +369,8 @@ class Subscriber(Role, Generic[M]):
                     queue.popleft()
                 queue.extend(frames)
         elif self.options.overflow == "drop_newest":
+            if not stats.dropped:
+                self._first_drop(len(frames) - room)
             stats.dropped += len(frames) - room
             queue.extend(frames[:room])
         else:
@@ -373,6 +380,17 @@ class Subscriber(Role, Generic[M]):
         self._arrived.wake()
         for function in self._on_arrival:
             function()
+
+    def _first_drop(self, count: int) -> None:
+        if self._warns:
+            self._context.log.warning(
+                "subscriber %s: %s dropped, because they are not taken as fast as they come and "
+                "the queue is full (queue_size=%s, overflow=%s). A larger queue_size helps with "
+                'bursts, overflow="block" makes the publishers wait. Further drops are only '
+                "counted, in `dropped`",
+                *(self.name, "a message was" if count == 1 else f"{count} messages were"),
+                *(self.options.queue_size, repr(self.options.overflow)),
+            )
 
     def _refill(self) -> None:
         """Move the backlog into the queue, and resume connections that have none left."""

@@ -21,6 +21,7 @@ from aioros1.net.backoff import Backoff
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
+from aioros1.quoting import printable
 from aioros1.waiting import Waiters
 from aioros1.wire.handshake import TopicClient, TopicOffer
 from aioros1.xmlrpc.node_proxy import NodeProxy
@@ -137,7 +138,7 @@ class Subscription(Shared[Subscribing]):
                 continue
             follower = self._followers[uri] = _Follower(self, self._context, self._local, uri)
             follower.task = self._context.spawn(
-                follower.run, name=f"{self._context.name} follows {self.name} of {uri}"
+                follower.run, name=f"{self._context.name} follows {self.name} of {printable(uri)}"
             )
 
     def follower_ended(self, uri: str) -> None:
@@ -226,7 +227,8 @@ class _Follower:
         self._leaving = False
         self._was_forgotten = False
         self._tries_local = True
-        self._complaint = ""
+        self.complaint = ""
+        """What went wrong last; empty if nothing has, or if a connection is open."""
 
     def stay(self) -> None:
         """Note that the master lists the publisher, perhaps again, and stop waiting."""
@@ -277,6 +279,7 @@ class _Follower:
         link = await self._connect()
         loop = asyncio.get_running_loop()
         begin = loop.time()
+        self.complaint = ""
         try:
             await self._until_closed(link)
         finally:
@@ -285,8 +288,6 @@ class _Follower:
             lasted = loop.time() - begin > backoff.longest
             if link.info.stats.messages or lasted:
                 backoff.reset()
-            if lasted:
-                self._complaint = ""
             link.abort()
             self._link = None
             subscription.link_closed(link)
@@ -303,7 +304,11 @@ class _Follower:
                 return await self._shake_hands(await connect(host, port, context.timeouts))
         if not offers:
             topic = self._subscription.name
-            raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
+            raise PeerError(
+                -1,
+                f"requestTopic {topic} at {printable(self._uri)}: cannot use "
+                f"{printable(repr(answer), 200)}",
+            )
         try:
             return await self._shake_hands(await local.connect(answer))
         except (OSError, TimeoutError) as error:
@@ -377,9 +382,8 @@ class _Follower:
         return True
 
     def _complain(self, text: str) -> None:
-        """Log a problem once, until it changes or all has gone well for a while."""
-        if text != self._complaint:
-            self._complaint = text
-            self._context.log.warning(
-                "subscriber %s: publisher at %s: %s", self._subscription.name, self._uri, text
-            )
+        """Log a problem, or count it if it was logged a short while ago."""
+        self.complaint = f"publisher at {printable(self._uri)}: {printable(text)}"
+        self._context.log.complain(
+            "subscriber %s: publisher at %s: %s", self._subscription.name, self._uri, text
+        )

@@ -9,6 +9,7 @@ from aioros1.errors import HandshakeError
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream
 from aioros1.options import WithoutMaster
+from aioros1.quoting import printable
 from aioros1.topics.options import PublisherOptions, SubscriberOptions
 from aioros1.topics.publication import Publication
 from aioros1.topics.publisher import Publisher
@@ -41,8 +42,10 @@ class Topics:
         type: Any,
         options: PublisherOptions,
         without_master: WithoutMaster = "raise",
+        *,
+        warns: bool = True,
     ) -> Publisher[Any]:
-        """See :meth:`aioros1.Node.advertise`."""
+        """See :meth:`aioros1.Node.advertise`. ``warns`` of the first message that is dropped."""
         context = self._context
         context.check_open()
         topic = context.resolve_name(topic)
@@ -53,7 +56,9 @@ class Topics:
         # A publication whose publishers are closing can be reused, but not for another type.
         if publication is None or publication.message_class._md5sum != message_class._md5sum:
             publication = Publication(context, topic, self.publications, message_class)
-        publisher: Publisher[Any] = Publisher(context, publication, message_class, options)
+        publisher: Publisher[Any] = Publisher(
+            context, publication, message_class, options, warns=warns
+        )
         await publication.acquire(publisher, without_master)
         return await context.admit(publisher, publisher._abort)
 
@@ -64,8 +69,10 @@ class Topics:
         callback: Callback | None,
         options: SubscriberOptions,
         without_master: WithoutMaster = "raise",
+        *,
+        warns: bool = True,
     ) -> Subscriber[Any]:
-        """See :meth:`aioros1.Node.subscribe`."""
+        """See :meth:`aioros1.Node.subscribe`. ``warns`` of the first message that is dropped."""
         context = self._context
         context.check_open()
         topic = context.resolve_name(topic)
@@ -78,7 +85,7 @@ class Topics:
         if message_class is not None:
             subscription.check_type(message_class)
         subscriber: Subscriber[Any] = Subscriber(
-            context, subscription, message_class, callback, options
+            context, subscription, message_class, callback, options, warns=warns
         )
         await subscription.acquire(subscriber, without_master)
         await context.admit(subscriber, subscriber._abort)
@@ -91,7 +98,7 @@ class Topics:
         async with (
             deadline(timeout, f"no message on {self._context.resolve_name(topic)}"),
             await self.subscribe(
-                topic, type, None, options, self._context.contact.policy
+                topic, type, None, options, self._context.contact.policy, warns=False
             ) as subscriber,
         ):
             return await subscriber.get()
@@ -104,7 +111,8 @@ class Topics:
         publication = self.published(server.topic or "")
         if publication is None:
             name = self._context.name
-            raise HandshakeError(name, f"{name} does not publish {server.topic}")
+            topic = printable(server.topic)
+            raise HandshakeError(server.peer, f"{name} does not publish {topic}")
         await publication.serve(stream, server)
 
     def watch(self, on_received: OnReceived) -> None:

@@ -39,7 +39,7 @@ def master_at(port, **options):
 
 async def until(predicate, what):
     async with asyncio.timeout(10):
-        while not predicate():  # noqa: ASYNC110
+        while not predicate():
             await asyncio.sleep(0.01)
     assert predicate(), what
 
