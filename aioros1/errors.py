@@ -125,7 +125,17 @@ class MessageSpecError(MessageError):
 
 @public
 class SerializationError(MessageError):
-    """A value does not fit its field; the text begins with the field's path."""
+    """A value does not fit its field; the text begins with the field's path.
+
+    It ends with the type of the message and, if the message was to be sent, with the topic or
+    service, in parentheses.
+    """
+
+    def locate(self, type: str, place: str = "") -> Self:
+        """Say which type, and where it was to be sent; return the error itself."""
+        text = str(self.args[0]).removesuffix(f" ({type})")
+        self.args = (f"{text} ({type} {place})" if place else f"{text} ({type})",)
+        return self
 
 
 @public
@@ -181,6 +191,9 @@ class MasterUnreachable(MasterError, ConnectionError):
 @public
 class NodeNotFound(MasterError, LookupError):
     """The master knows no node of that name."""
+
+    def __str__(self) -> str:
+        return self.status
 
 
 @public

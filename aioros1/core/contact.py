@@ -9,6 +9,7 @@ from aioros1.errors import MasterUnreachable
 from aioros1.log.library_log import LibraryLog
 from aioros1.net.backoff import Backoff
 from aioros1.options import WithoutMaster
+from aioros1.waiting import Obstacle
 
 __all__ = ["Contact"]
 
@@ -39,7 +40,9 @@ class Contact:
         self._master_uri = master_uri
         self._log = log
         self._pause = pause
-        self._is_missing = False
+        self._missing = ""  # why no master is reached now
+        self.obstacle = Obstacle(lambda: self._missing)
+        """Why no master is reached now; empty if one is, or if none was needed."""
 
     async def reach(self, ask: Callable[[], Awaitable[T]]) -> T:
         """Return ``await ask()``; with ``"wait"``, ask again until a master answers."""
@@ -51,10 +54,15 @@ class Contact:
                 answer = await ask()
             except MasterUnreachable as error:
                 self._say(f"waiting for a master: {error.status}; {_ADVICE}")
+                self._missing = error.status
             else:
-                self._is_missing = False
+                self.reached()
                 return answer
             await self._pause(backoff.delay())
+
+    def reached(self) -> None:
+        """Note that a master has answered."""
+        self._missing = ""
 
     def deferred(self) -> None:
         """Say that what was opened is registered later."""
@@ -65,6 +73,6 @@ class Contact:
 
     def _say(self, text: str) -> None:
         """Log ``text``, once until a master has answered."""
-        if not self._is_missing:
-            self._is_missing = True
+        if not self._missing:
+            self._missing = text
             self._log.warning("%s", text)

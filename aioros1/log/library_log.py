@@ -11,7 +11,11 @@ from aioros1.log.node_log import NodeLog
 from aioros1.log.repeats import Repeats
 from aioros1.quoting import printable
 
-__all__ = ["LibraryLog"]
+__all__ = ["ROSOUT", "LibraryLog"]
+
+ROSOUT = "/rosout"
+"""The topic of all log records. Every node publishes it from its start to its end, so whoever
+receives it meets nodes that are not ready yet or have just gone. That is no news to anybody."""
 
 _LONGEST = 1000
 """Characters of one value in a record."""

@@ -6,6 +6,7 @@ from collections.abc import Awaitable, Callable
 
 from aioros1.core.context import Context
 from aioros1.errors import HandshakeError
+from aioros1.log.library_log import ROSOUT
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.local_transports import LocalTransports
@@ -72,7 +73,8 @@ class Acceptor:
             assert serve is not None
             await serve(stream, server)
         except HandshakeError as error:
-            if context.is_open:  # or else the peer does not know yet that the node closes
+            # A peer that comes while the node closes does not know that yet.
+            if context.is_open and server.header.get("topic") != ROSOUT:
                 host = stream.peer.rpartition(":")[0]
                 about = (server.caller_id, host, error.text)
                 log.complain("refused a connection of %s: %s", server.peer, error.text, about=about)

@@ -74,6 +74,7 @@ class Heartbeat:
                 context.log.warning("lost the master at %s: %s", uri, reason)
                 context.emit(MasterLost(uri, reason))
             return
+        context.contact.reached()
         known, self._identity = self._identity, identity
         was_lost, self._is_lost = self._is_lost, False
         if self._is_stopped:

@@ -15,13 +15,14 @@ from aioros1.clock.rate import Rate, period_of
 from aioros1.clock.timer import Timer
 from aioros1.core.address import Address
 from aioros1.core.context import Context
+from aioros1.core.hints import similar_node
 from aioros1.core.registration import Terms
 from aioros1.core.registrations import AT_ONCE, Registrations
 from aioros1.core.role import Role
 from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
 from aioros1.core.user_errors import UserErrors
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, NodeNotFound
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
 from aioros1.idl import MessageStore, default_store
@@ -461,7 +462,11 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         """
         context = self._context
         name = context.resolve_name(name)
-        uri = await context.contact.reach(lambda: self.master.lookup_node(name))
+        try:
+            uri = await context.contact.reach(lambda: self.master.lookup_node(name))
+        except NodeNotFound as error:
+            similar = await similar_node(context, name)
+            raise NodeNotFound(error.code, f"{error.status}{similar}") from None
         return NodeProxy(context.xmlrpc, uri, self.name, name)
 
     async def wait_for_master(self, *, timeout: float | None = None) -> None:

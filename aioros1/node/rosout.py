@@ -11,6 +11,7 @@ from typing import Any
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
 from aioros1.log.levels import LevelChanges, ros_level
+from aioros1.log.library_log import ROSOUT
 from aioros1.log.loggers import SilentHandler, topmost
 from aioros1.params.params import Params
 from aioros1.time import Time
@@ -77,7 +78,7 @@ class Rosout(SilentHandler):
         while self._publisher is None:
             try:
                 self._publisher = await self._topics.advertise(
-                    "/rosout", "rosgraph_msgs/Log", options, warns=False
+                    ROSOUT, "rosgraph_msgs/Log", options, warns=False
                 )
             except MasterError:
                 self._expect(False)
@@ -86,7 +87,7 @@ class Rosout(SilentHandler):
         with contextlib.suppress(MasterError):
             disabled = await self._params.get("/rosout_disable_topics_generation", False)
             self._has_topics = disabled is not True
-        publication = self._topics.published("/rosout")
+        publication = self._topics.published(ROSOUT)
         known = publication.known_subscribers if publication is not None else 0
         self._expect(known > 0)
         with contextlib.suppress(TimeoutError):

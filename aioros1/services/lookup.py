@@ -39,7 +39,9 @@ async def look_up(context: Context, service: str) -> str:
     except MasterError as error:
         if not error.is_refusal:
             raise
-        raise ServiceNotFound(f"service {service}: no provider: {error.status}") from None
+        raise ServiceNotFound(
+            f"service {service}: no provider: the master at {context.master.uri} knows none"
+        ) from None
 
 
 async def agree(

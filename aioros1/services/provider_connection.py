@@ -40,6 +40,7 @@ Work: TypeAlias = Coroutine[Any, Any, bytes]
 class Provided(Protocol):
     """What a connection needs of its service."""
 
+    name: str
     side: Side
     handler: Handler[Any, Any] | None
     slots: asyncio.Semaphore | None
@@ -185,6 +186,7 @@ class ProviderConnection:
         if isinstance(error, ServiceError):
             return encode_failure(error.text)
         if isinstance(error, SerializationError):
+            error.locate(self._side.outgoing_type, f"from {self._provision.name}")
             self._provision.log_error("bad response", error)
             return encode_failure(f"the service made a bad response: {error}")
         self._provision.log_error("the handler failed", error)

@@ -130,7 +130,7 @@ class Provision(Shared[Providing]):
         """
         if not self.is_open:
             raise ServiceError("the service is shut down")
-        call: ServiceCall[Any, Any] = ServiceCall(request, header, self.side)
+        call: ServiceCall[Any, Any] = ServiceCall(self.name, request, header, self.side)
         self.calls.append(call)
         self._unanswered.add(call)
         self.arrived.wake()

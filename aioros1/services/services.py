@@ -84,7 +84,8 @@ class Services:
         elif options.raw:
             service_class = None
         else:
-            async with deadline(options.timeout, f"service {name}: no answer"):
+            async with deadline(options.timeout, f"service {name}: no answer") as limit:
+                limit.why = context.contact.obstacle
                 header = await context.contact.reach(lambda: probe(context, name, self._probes))
             service_class = service_class_of(context, name, header)
         caller: ServiceCaller[Any, Any] = ServiceCaller(context, name, service_class, options)
@@ -100,10 +101,11 @@ class Services:
     ) -> Any:
         """See :meth:`aioros1.Node.call`."""
         async with (
-            deadline(timeout, f"service {self._context.resolve_name(name)}: no answer"),
-            await self.caller(name, type, ServiceCallerOptions()) as caller,
+            deadline(timeout, f"service {self._context.resolve_name(name)}: no answer") as limit,
         ):
-            return await caller.call(request, **fields)
+            limit.why = self._context.contact.obstacle
+            async with await self.caller(name, type, ServiceCallerOptions()) as caller:
+                return await caller.call(request, **fields)
 
     async def wait_for(self, name: str, timeout: float | None) -> None:
         """See :meth:`aioros1.Node.wait_for_service`."""

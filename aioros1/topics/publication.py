@@ -80,8 +80,7 @@ class Publication(Shared[Publishing]):
         self.has_subscribers = False
         self.known_subscribers = 0
         """How many subscribers the master named when this was last registered."""
-        self.refusal = ""
-        """Why a subscriber was refused last; empty if none was."""
+        self._refusal = ""  # of the last subscriber that was refused
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
@@ -97,6 +96,13 @@ class Publication(Shared[Publishing]):
     def bytes_published(self) -> int:
         """Bytes that all publishers have published so far, including closed ones."""
         return self._bytes_of_closed + sum(each.stats.bytes for each in self.roles)
+
+    @property
+    def obstacle(self) -> str:
+        """What keeps subscribers from being connected, as far as it is known here."""
+        if self._refusal or self.registration.is_established:
+            return self._refusal
+        return f"the master does not know of publisher {self.name} yet"
 
     @property
     def is_drained(self) -> bool:
@@ -221,7 +227,7 @@ class Publication(Shared[Publishing]):
         try:
             answer = server.accept_topic(context.name, offer, headers)
         except HandshakeError as error:
-            self.refusal = error.text
+            self._refusal = f"{server.peer} was refused: {error.text}"
             raise
         theirs = server.header.get("type", "*")
         if theirs not in ("*", offer.type):

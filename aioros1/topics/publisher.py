@@ -9,8 +9,9 @@ from weakref import WeakSet
 
 from aioros1._public import public
 from aioros1.clock.timer import Timer
+from aioros1.core.hints import Hint
 from aioros1.core.role import Role
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, SerializationError
 from aioros1.idl import Message
 from aioros1.idl.codec import codec_of
 from aioros1.idl.message_from import message_from
@@ -116,10 +117,13 @@ class Publisher(Role, Generic[M]):
         coalescer = publication.coalescer
         if not coalescer.collects_here():
             coalescer.begin()
-        if msg.__class__ is self._plain_class and not fields:
-            frame = self._frame(msg)
-        else:
-            frame = self._encode(msg, fields)
+        try:
+            if msg.__class__ is self._plain_class and not fields:
+                frame = self._frame(msg)
+            else:
+                frame = self._encode(msg, fields)
+        except SerializationError as error:
+            raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
         if self._blocks and publication.is_congested:
             self._require_room()
         if self._latches:
@@ -173,10 +177,13 @@ class Publisher(Role, Generic[M]):
             )
         if not coalescer.collects_here():
             coalescer.begin()
-        if msg.__class__ is self._plain_class and not fields:
-            frame = self._frame(msg)
-        else:
-            frame = self._encode(msg, fields)
+        try:
+            if msg.__class__ is self._plain_class and not fields:
+                frame = self._frame(msg)
+            else:
+                frame = self._encode(msg, fields)
+        except SerializationError as error:
+            raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
         if self._latches:
             self._latched = frame
         publication.send(frame, self)
@@ -204,7 +211,10 @@ class Publisher(Role, Generic[M]):
         self._check_open()
         if not callable(msg):
             # Raise here, where the caller sees it, and not later in the timer.
-            self._frame(message_from(self.message_class, msg, fields, "msg"))
+            try:
+                self._frame(message_from(self.message_class, msg, fields, "msg"))
+            except SerializationError as error:
+                raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
 
         async def publish(now: Time) -> None:
             message: Any = msg
@@ -241,17 +251,22 @@ class Publisher(Role, Generic[M]):
     async def wait_for_subscribers(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` subscribers are connected.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError` after ``timeout`` seconds, whose text says what is in the
+        way, and :class:`~aioros1.ClosedError`.
         """
         self._check_open()
-        await self._wait_until(
-            lambda: self.subscriber_count >= n, timeout, f"{n} subscribers did not connect"
-        )
+        publication = self._publication
+        what = f"{n} subscribers did not connect"
+        hint = Hint(self._context, "subscribers", self.name, lambda: publication.obstacle, timeout)
+        with hint:
+            await self._wait_until(lambda: self.subscriber_count >= n, timeout, what, hint)
 
-    async def _wait_until(self, predicate: Any, timeout: float | None, what: str) -> None:
+    async def _wait_until(
+        self, predicate: Any, timeout: float | None, what: str, why: object = ""
+    ) -> None:
         waiters = self._publication.changed
-        async with deadline(timeout, f"publisher {self.name}: {what}"):
+        async with deadline(timeout, f"publisher {self.name}: {what}") as limit:
+            limit.why = why
             while not predicate():
                 await waiters.wait()
                 self._check_open()

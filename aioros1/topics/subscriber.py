@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from aioros1._public import public
+from aioros1.core.hints import Hint
 from aioros1.core.role import Role
 from aioros1.errors import DeserializationError
 from aioros1.idl.codec import codec_of
@@ -168,14 +169,18 @@ class Subscriber(Role, Generic[M]):
     async def wait_for_publishers(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` publishers are connected.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError` after ``timeout`` seconds, whose text says what is in the
+        way, and :class:`~aioros1.ClosedError`.
         """
         self._check_open()
-        async with deadline(timeout, f"subscriber {self.name}: {n} publishers did not connect"):
-            while self.publisher_count < n:
-                await self._subscription.changed.wait()
-                self._check_open()
+        subscription = self._subscription
+        what = f"subscriber {self.name}: {n} publishers did not connect"
+        obstacle = subscription.obstacle.__str__
+        async with deadline(timeout, what) as limit:
+            with Hint(self._context, "publishers", self.name, obstacle, timeout) as limit.why:
+                while self.publisher_count < n:
+                    await subscription.changed.wait()
+                    self._check_open()
 
     async def wait_for_messages(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` messages are in the queue, without taking any.
@@ -251,7 +256,8 @@ class Subscriber(Role, Generic[M]):
         :class:`~aioros1.ClosedError`. Cancelling it loses no message.
         """
         if timeout is not None:
-            async with deadline(timeout, f"subscriber {self.name}: no message came"):
+            async with deadline(timeout, f"subscriber {self.name}: no message came") as limit:
+                limit.why = self._subscription.obstacle
                 return await self.get()
         if self.callback is not None:
             self._check_queued()

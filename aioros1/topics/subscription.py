@@ -17,12 +17,13 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
 from aioros1.errors import HandshakeError, Md5MismatchError, PeerError
+from aioros1.log.library_log import ROSOUT
 from aioros1.net.backoff import Backoff
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.quoting import printable
-from aioros1.waiting import Waiters
+from aioros1.waiting import Obstacle, Waiters
 from aioros1.wire.handshake import TopicClient, TopicOffer
 from aioros1.xmlrpc.node_proxy import NodeProxy
 
@@ -75,6 +76,8 @@ class Subscription(Shared[Subscribing]):
         """Woken when a connection opens or closes."""
         self.on_received: OnReceived | None = None
         """Called with everything received, before the subscribers get it."""
+        self.obstacle = Obstacle(self._in_the_way)
+        """What keeps publishers from being connected; empty if all are."""
         self._local = local
         self._followers: dict[str, _Follower] = {}
         self._links: tuple[IncomingLink, ...] = ()
@@ -94,6 +97,19 @@ class Subscription(Shared[Subscribing]):
     def publisher_count(self) -> int:
         """How many publishers are connected."""
         return len(self._links)
+
+    def _in_the_way(self) -> str:
+        if complaints := [each.complaint for each in self._followers.values() if each.complaint]:
+            more = f" (and {len(complaints) - 1} more)" if len(complaints) > 1 else ""
+            return f"{complaints[0]}{more}"
+        connecting = len(self._followers) - len(self._links)
+        if connecting > 0:
+            return f"publishers that were announced and are being connected: {connecting}"
+        if self._links:
+            return ""
+        if not self.registration.is_established:
+            return f"the master does not know of subscriber {self.name} yet"
+        return "no publisher was announced"
 
     @property
     def has_header(self) -> bool:
@@ -384,6 +400,9 @@ class _Follower:
     def _complain(self, text: str) -> None:
         """Log a problem, or count it if it was logged a short while ago."""
         self.complaint = f"publisher at {printable(self._uri)}: {printable(text)}"
-        self._context.log.complain(
-            "subscriber %s: publisher at %s: %s", self._subscription.name, self._uri, text
-        )
+        log, topic = self._context.log, self._subscription.name
+        what = "subscriber %s: publisher at %s: %s"
+        if topic == ROSOUT:
+            log.debug(what, topic, self._uri, text)
+        else:
+            log.complain(what, topic, self._uri, text)

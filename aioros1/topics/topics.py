@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from aioros1.core.context import Context
+from aioros1.core.hints import Hint
 from aioros1.errors import HandshakeError
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream
@@ -94,14 +95,17 @@ class Topics:
 
     async def wait_for_message(self, topic: str, type: Any, timeout: float | None) -> Any:
         """See :meth:`aioros1.Node.wait_for_message`."""
+        context = self._context
         options = SubscriberOptions(queue_size=1, overflow="drop_newest")
-        async with (
-            deadline(timeout, f"no message on {self._context.resolve_name(topic)}"),
-            await self.subscribe(
-                topic, type, None, options, self._context.contact.policy, warns=False
-            ) as subscriber,
-        ):
-            return await subscriber.get()
+        name = context.resolve_name(topic)
+        async with deadline(timeout, f"no message on {name}") as limit:
+            limit.why = context.contact.obstacle
+            async with await self.subscribe(
+                topic, type, None, options, context.contact.policy, warns=False
+            ) as subscriber:
+                obstacle = subscriber._subscription.obstacle
+                with Hint(context, "publishers", name, obstacle.__str__, timeout) as limit.why:
+                    return await subscriber.get()
 
     async def serve(self, stream: Stream, server: Server) -> None:
         """Serve a subscriber that has connected; ``server`` holds its header.

@@ -101,7 +101,8 @@ class MasterProxy:
         except MasterError as error:
             if not error.is_refusal:
                 raise
-            raise NodeNotFound(error.code, f"no node {name}: {error.status}") from None
+            text = f"no node {name}: the master at {self.uri} knows none of that name"
+            raise NodeNotFound(error.code, text) from None
 
     async def lookup_service(self, name: str) -> str:
         """The ``rosrpc://host:port`` of a service's provider."""
