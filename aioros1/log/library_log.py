@@ -49,8 +49,14 @@ class LibraryLog(logging.LoggerAdapter[Any]):
             kwargs["stacklevel"] = kwargs.get("stacklevel", 1) + 1  # past this function
             super().log(level, msg, *map(_shown, args), **kwargs)
 
-    def complain(self, text: str, *args: object, about: Hashable = None) -> None:
-        """Log a warning, unless it was logged a short while ago; then count it.
+    def complain(
+        self,
+        text: str,
+        *args: object,
+        about: Hashable = None,
+        error: BaseException | None = None,
+    ) -> None:
+        """Log a warning, or ``error`` with its traceback, the first time; count it after that.
 
         The count is logged later; see :class:`.Repeats`. ``text`` is the kind of complaint, a
         format with nothing but ``%s`` in it. ``about`` tells complaints of one kind apart. By
@@ -63,7 +69,8 @@ class LibraryLog(logging.LoggerAdapter[Any]):
         except RuntimeError:  # it is closed already
             return
         if self._repeats.is_new(text, about, shown, loop.time()):
-            self.warning(text, *shown, stacklevel=2)
+            level = logging.WARNING if error is None else logging.ERROR
+            self.log(level, text, *shown, exc_info=error, stacklevel=2)
         if self._timer is None and not self._is_closed:
             self._timer = loop.call_later(self._repeats.period, self._tell, loop)
 

@@ -143,8 +143,9 @@ class Provision(Shared[Providing]):
         return answer
 
     def log_error(self, what: str, error: Exception) -> None:
-        """Log what failed, with the traceback."""
-        self._context.log.error("service %s: %s", self.name, what, exc_info=error)
+        """Log what failed, with the traceback; callers can make it fail as often as they like."""
+        about = (self.name, what, type(error), str(error))
+        self._context.log.complain("service %s: %s", self.name, what, about=about, error=error)
 
     def end_calls(self, error: ClosedError) -> None:
         """End all waiting calls; answering one later raises ``error``."""

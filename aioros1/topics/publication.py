@@ -280,7 +280,8 @@ class Publication(Shared[Publishing]):
     def messages_lost(self, link: OutgoingLink) -> None:
         lost = Counter(publisher for _, publisher in link.queue)
         for publisher, count in lost.items():
-            if not publisher.stats.dropped:
+            # A subscriber may go while the publisher closes, and leave what waits for it.
+            if publisher.is_open and not publisher.stats.dropped:
                 self._first_drop(
                     publisher,
                     "publisher %s: the connection to %s has ended, and with it %s of its messages "
@@ -335,7 +336,12 @@ class Publication(Shared[Publishing]):
                 for link in links:
                     await link.wait_closed()
         except TimeoutError:
-            pass
+            for link in self._slow:
+                self._context.log.warning(
+                    "publisher %s: closed, and %s messages that waited for %s are lost: it did not "
+                    "take them within %s s",
+                    *(self.name, len(link.queue), link.info.peer, self._context.timeouts.close),
+                )
         finally:
             self.abort()
 

@@ -80,7 +80,7 @@ class _Side(ABC):
         try:
             return self._parser.missing()
         except HeaderError as error:
-            raise HandshakeError(self.peer, str(error)) from error
+            raise HandshakeError(self.peer, str(error)) from None
 
     def receive_data(self, data: bytes) -> bool:
         """Take bytes, and return True once the header of the other side is complete.
@@ -93,7 +93,7 @@ class _Side(ABC):
         try:
             header = self._parser.feed(data)
         except HeaderError as error:
-            raise HandshakeError(self.peer, f"bad connection header: {error}") from error
+            raise HandshakeError(self.peer, f"bad connection header: {error}") from None
         if header is None:
             return False
         self.header = header
