@@ -71,8 +71,8 @@ class RosError(Exception):
     parts of it may come from a peer, and it is cut after 2,000 characters.
     """
 
-    def __str__(self) -> str:
-        return printable(super().__str__(), _LONGEST)
+    def __init__(self, *args: object) -> None:
+        super().__init__(*(printable(a, _LONGEST) if isinstance(a, str) else a for a in args))
 
 
 @public
@@ -95,15 +95,14 @@ class MessageNotFoundError(MessageError, LookupError):
 
     def __init__(self, text: str, places: Sequence[str] | None = None) -> None:
         super().__init__(text, places)
-        self.text = text
+        self.text = printable(text, _LONGEST)
         """What was not found, without the places."""
         self.places = places
 
     def __str__(self) -> str:
-        text = printable(self.text, _LONGEST)
         if self.places is None:
-            return text
-        return f"{text}; searched: {', '.join(self.places) or 'no directory'}"
+            return self.text
+        return f"{self.text}; searched: {', '.join(self.places) or 'no directory'}"
 
 
 @public
@@ -158,8 +157,8 @@ class MasterError(RosError):
     """
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
-        status = printable(status, _LONGEST)
         super().__init__(code, status)
+        status = printable(status, _LONGEST)
         self.code = code
         self.status = status
         self.is_refusal = is_refusal
@@ -201,8 +200,8 @@ class PeerError(RosError):
     """Another node refused a request of the slave API; like :class:`MasterError`."""
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
-        status = printable(status, _LONGEST)
         super().__init__(code, status)
+        status = printable(status, _LONGEST)
         self.code = code
         """0 or -1 from the answer, or the code of an XML-RPC fault."""
         self.status = status
@@ -233,18 +232,20 @@ class PeerUnreachable(PeerError, ConnectionError):
 class HandshakeError(RosError):
     """The handshake of a TCPROS connection failed.
 
-    ``peer`` names the other side. ``text`` is its ``error=`` text, or what is wrong with what
-    it sent.
+    ``peer`` names the other side. ``text`` is its ``error=`` text, as it said it, or what is
+    wrong with what it sent.
     """
 
+    def __reduce__(self) -> tuple[type[Self], tuple[str, str]]:
+        return type(self), (self.peer, self.text)
+
     def __init__(self, peer: str, text: str) -> None:
-        peer, text = printable(peer), printable(text, _LONGEST)
         super().__init__(peer, text)
-        self.peer = peer
+        self.peer = printable(peer)
         self.text = text
 
     def __str__(self) -> str:
-        return f"{self.peer}: {self.text}"
+        return f"{self.peer}: {printable(self.text, _LONGEST)}"
 
 
 @public
@@ -255,7 +256,7 @@ class ServiceError(RosError):
     """
 
     def __init__(self, text: str) -> None:
-        super().__init__(printable(text, _LONGEST))
+        super().__init__(text)
         self.text = text
 
     def __reduce__(self) -> tuple[type[Self], tuple[str]]:

@@ -108,6 +108,11 @@ class Registration:
                 await self._take_back(isinstance(error, asyncio.CancelledError))
             raise
 
+    def defer(self) -> None:
+        """Add a user, and leave it to the heartbeat to tell the master."""
+        self.users += 1
+        self._terms.table[self.kind, self.name] = self
+
     async def release(self) -> None:
         """Remove a user; unregister after the last one. Raises :class:`~aioros1.MasterError` if
         the master could not be told, which is retried when it is back."""

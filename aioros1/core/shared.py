@@ -64,6 +64,11 @@ class Shared(ABC, Generic[R]):
         registration, contact = self.registration, self._context.contact
         if without_master == "wait":
             await contact.reach(registration.acquire)
+        elif without_master == "later" and contact.obstacle:
+            # It was missed a moment ago: a back end that opens many roles does not wait for
+            # each of them. The heartbeat notices when it is back.
+            registration.defer()
+            self.was_deferred = True
         elif not await registration.acquire(may_defer=without_master == "later"):
             self.was_deferred = True
             contact.deferred()

@@ -21,7 +21,6 @@ from aioros1.net.connecting import connect as connect_tcp
 from aioros1.net.connecting import reason_of
 from aioros1.net.hosts import bind_sockets, set_keepalive
 from aioros1.options import Limits, Timeouts
-from aioros1.quoting import printable
 
 __all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
 
@@ -195,7 +194,7 @@ def connection_info(
     return ConnectionInfo(
         name=name,
         direction=direction,
-        peer=printable(peer),
+        peer=peer,
         local=writer.get_extra_info("sockname")[:2] if over_ip else ("", 0),
         remote=writer.get_extra_info("peername")[:2] if over_ip else ("", 0),
         fileno=sock.fileno() if sock is not None else -1,

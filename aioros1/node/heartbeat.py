@@ -141,5 +141,5 @@ class Heartbeat:
         for failure in failures:
             if not isinstance(failure, MasterError):
                 raise failure
-            self._context.log.warning("cannot register: %s", failure)
+            self._context.log.complain("cannot register: %s", failure)
         return not failures

@@ -24,6 +24,7 @@ from aioros1.core.shared import Shared
 from aioros1.errors import HandshakeError, Md5MismatchError
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
+from aioros1.quoting import printable
 from aioros1.waiting import Waiters
 from aioros1.wire.allocation import keep_memory
 from aioros1.wire.handshake import Server, TopicOffer
@@ -227,7 +228,7 @@ class Publication(Shared[Publishing]):
         try:
             answer = server.accept_topic(context.name, offer, headers)
         except HandshakeError as error:
-            self._refusal = f"{server.peer} was refused: {error.text}"
+            self._refusal = f"{server.peer} was refused: {printable(error.text)}"
             raise
         theirs = server.header.get("type", "*")
         if theirs not in ("*", offer.type):

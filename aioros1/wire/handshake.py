@@ -252,7 +252,7 @@ class Server(_Side):
 
     def _check(self, header: dict[str, str]) -> None:
         if "callerid" in header:
-            self.peer = f"{self.caller_id} at {self.peer}"
+            self.peer = f"{printable(self.caller_id)} at {self.peer}"
         for name in ("callerid", "md5sum"):
             if name not in header:
                 raise self._fail(f"the connection header has no {name}")
@@ -261,8 +261,8 @@ class Server(_Side):
 
     @property
     def caller_id(self) -> str:
-        """The name of the node that connects, as :func:`.printable` shows it."""
-        return printable(self.header.get("callerid", ""))
+        """The name of the node that connects, which may be any text."""
+        return self.header.get("callerid", "")
 
     @property
     def topic(self) -> str | None:
@@ -333,7 +333,7 @@ class Server(_Side):
         theirs = self.header["md5sum"]
         if theirs != md5sum and "*" not in (theirs, md5sum):
             raise self._fail(
-                f"client {self.caller_id} wants {what} as "
+                f"client {printable(self.caller_id)} wants {what} as "
                 f"{printable(self.header.get('type', '?'))} with "
                 f"md5sum {printable(theirs)}, but it is {type} with md5sum {md5sum} here"
             )

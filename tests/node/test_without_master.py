@@ -317,3 +317,32 @@ def test_a_script_waits_for_the_master_by_default(port):
     finally:
         process.kill()
         process.communicate()
+
+
+async def test_a_master_that_does_not_answer_delays_only_the_first_role(make_silent):
+    uri = await make_silent()
+    timeouts = aioros1.Timeouts(xmlrpc=0.3)
+    node = aioros1.Node(
+        "demo", master_uri=uri, host="localhost", without_master="later", timeouts=timeouts
+    )
+    async with node:
+        async with asyncio.timeout(5):  # not a hundred times that timeout
+            for number in range(100):
+                await node.advertise(f"topic{number}", String)
+        assert len(node.roles) == 100
+        await node.close(timeout=0.5)
+
+
+@pytest.fixture
+async def make_silent():
+    """A port that accepts connections and never answers."""
+    writers = []
+
+    async def start():
+        server = await asyncio.start_server(lambda _, writer: writers.append(writer), "127.0.0.1")
+        writers.append(server)
+        return f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}"
+
+    yield start
+    for each in writers:
+        each.close()
