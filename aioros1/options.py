@@ -245,8 +245,15 @@ def _check_rosout(rosout: object) -> None:
 def check_queue(queue_size: int, overflow: str) -> None:
     """Raise :class:`ValueError` for invalid queue options."""
     if not isinstance(queue_size, int) or queue_size < 1:
+        hint = ""
+        if queue_size is None or queue_size == 0:
+            # rospy publishes without a queue for None, and both stand for no limit elsewhere.
+            hint = (
+                '. Every queue has a limit here: use a large one for bursts, or overflow="block" '
+                "with `await send()` to wait for room"
+            )
         raise ValueError(
-            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}"
+            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}{hint}"
         )
     if overflow not in get_args(Overflow):
         choices = ", ".join(map(repr, get_args(Overflow)))

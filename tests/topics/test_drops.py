@@ -152,3 +152,12 @@ async def test_a_follower_of_a_parameter(make_node, caplog):
         assert followed.value == 1005
     assert len(drops(caplog)) == 1
     assert "/gain" in drops(caplog)[0]
+
+
+@pytest.mark.parametrize("size", [None, 0])
+async def test_the_sizes_that_rospy_takes_for_none_get_an_answer_that_helps(make_node, size):
+    node = await make_node("node")
+    for make in (node.advertise, node.subscribe):
+        with pytest.raises(ValueError, match=rf"got {size}\. Every queue has a limit") as caught:
+            make("chatter", String, queue_size=size)
+        assert "`await send()`" in str(caught.value)
