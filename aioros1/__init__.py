@@ -35,6 +35,7 @@ _MODULES = {
         "MessageError",
         "MessageNotFoundError",
         "MessageSpecError",
+        "NodeNotFound",
         "PeerError",
         "PeerUnreachable",
         "RosError",

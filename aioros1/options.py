@@ -18,6 +18,7 @@ __all__ = [
     "OnError",
     "Overflow",
     "Timeouts",
+    "WithoutMaster",
     "check_queue",
 ]
 
@@ -26,6 +27,9 @@ Overflow = Literal["drop_oldest", "drop_newest", "block"]
 
 OnError = Literal["raise", "log"] | Callable[[Exception], object]
 """What happens to an exception in a user's callback that nobody awaits."""
+
+WithoutMaster = Literal["raise", "wait", "later"]
+"""What opening a role does while no master answers."""
 
 LocalTransport = Literal["intraprocess", "unix"]
 """A transport between nodes of this library, within one event loop or within one host."""
@@ -193,6 +197,8 @@ class NodeOptions:
     """Whether the node follows ``/clock``; None for what the parameter says."""
     heartbeat: float | None = 1.0
     """Seconds between two checks of the master; None for no checks."""
+    without_master: WithoutMaster = "raise"
+    """What opening a role does while no master answers."""
     timeouts: Timeouts = Timeouts()
     """How long the node waits for others."""
     limits: Limits = Limits()
@@ -211,12 +217,24 @@ class NodeOptions:
             raise ValueError(f"on_error must be 'raise', 'log' or callable, got {self.on_error!r}")
         if self.heartbeat is not None and not self.heartbeat > 0:
             raise ValueError(f"heartbeat must be positive or None, got {self.heartbeat!r}")
+        _check_without_master(self.without_master, self.heartbeat)
         _check_rosout(self.rosout)
         known = get_args(LocalTransport)
         named = self.local_transports
         if isinstance(named, str) or any(each not in known for each in named):
             choices = ", ".join(map(repr, known))
             raise ValueError(f"local_transports must be some of {choices}, got {named!r}")
+
+
+def _check_without_master(policy: object, heartbeat: float | None) -> None:
+    if policy not in get_args(WithoutMaster):
+        choices = ", ".join(map(repr, get_args(WithoutMaster)))
+        raise ValueError(f"without_master must be one of {choices}, got {policy!r}")
+    if policy == "later" and heartbeat is None:
+        raise ValueError(
+            "without_master='later' needs a heartbeat, which registers what was opened; "
+            "got heartbeat=None"
+        )
 
 
 def _check_rosout(rosout: object) -> None:

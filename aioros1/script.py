@@ -12,7 +12,7 @@ from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from aioros1 import ClosedError, Node
+from aioros1 import ClosedError, MasterUnreachable, Node
 from aioros1._public import public
 
 __all__ = ["run"]
@@ -55,6 +55,11 @@ def run(
     the :class:`SystemExit` of a ``sys.exit()`` anywhere in the program. If ``main`` does not end
     although it was cancelled twice, the program exits without it, with status 1.
 
+    Without a master, what ``main`` asks of it waits until one answers, and a line on standard
+    error says so (``without_master="wait"``). With ``without_master="raise"``, and after
+    ``main`` has raised :class:`~aioros1.MasterUnreachable`, the script ends with that one line
+    and status 1.
+
     Use this function only in scripts: no other part of the library touches signals. Raises
     :class:`RuntimeError` outside the main thread, and where an event loop is running.
     """
@@ -63,11 +68,26 @@ def run(
     if name is None:
         name = Path(sys.argv[0]).stem or "aioros1"
     node_options.setdefault("argv", sys.argv[1:])
+    node_options.setdefault("without_master", "wait")
     node = Node(name, **node_options)
     script = _Script(main, node)
-    with _log_file(node), _previous_handlers():
-        _run(script, loop_factory)
-    return script.outcome()
+    try:
+        with _log_file(node), _previous_handlers():
+            _run(script, loop_factory)
+        return script.outcome()
+    except (MasterUnreachable, ExceptionGroup) as error:
+        if (missing := _missing_master(error)) is None:
+            raise
+        raise SystemExit(f"{node.name}: {missing}") from None
+
+
+def _missing_master(error: Exception) -> Exception | None:
+    """The error that there is no master, if ``error``, alone or as a group, says only that."""
+    while isinstance(error, ExceptionGroup):
+        if error.split(MasterUnreachable)[1] is not None:
+            return None
+        error = error.exceptions[0]
+    return error
 
 
 def _check_place() -> None:

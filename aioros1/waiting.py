@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Self
 
-__all__ = ["Deadlines", "Mutex", "Waiters", "deadline"]
+__all__ = ["Deadlines", "Mutex", "Obstacle", "Waiters", "deadline"]
 
 _LOOK = 0.001
 """Seconds that a block gets at least when its time is over, for what has arrived already."""
@@ -194,6 +194,19 @@ class deadline:  # noqa: N801 - it is used like asyncio.timeout
         if self._task is not None:
             self._has_expired = True
             self._task.cancel()
+
+
+class Obstacle:
+    """What is in the way, for :attr:`deadline.why`. Its text is made when it is asked for."""
+
+    def __init__(self, what: Callable[[], str]) -> None:
+        self._what = what
+
+    def __str__(self) -> str:
+        return self._what()
+
+    def __bool__(self) -> bool:
+        return bool(str(self))
 
 
 class Deadlines:

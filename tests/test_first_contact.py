@@ -82,11 +82,11 @@ async def test_private_names_of_an_opening_are_just_missing(make_node):
 TABLE: list[tuple[str, Callable[[Any], Any], type[Exception], list[str]]] = [
     # what is published
     ("text", lambda t: t.string.publish("text"), aioros1.SerializationError,
-     ["expected a std_msgs/String, got 'text'", "data='text'", "/string, std_msgs/String"]),
+     ["expected a std_msgs/String, got 'text'", "data='text'", "(std_msgs/String on /string)"]),
     ("a number", lambda t: t.string.publish(5), aioros1.SerializationError, ["data=5"]),
     ("a list", lambda t: t.string.publish(["a"]), aioros1.SerializationError, ["data=['a']"]),
     ("text for several fields", lambda t: t.twist.publish("x"), aioros1.SerializationError,
-     ["got 'x'", "linear=..., angular=...", "/twist, geometry_msgs/Twist"]),
+     ["got 'x'", "linear=..., angular=...", "(geometry_msgs/Twist on /twist)"]),
     ("something for nothing", lambda t: t.empty.publish("x"), aioros1.SerializationError,
      ["it has no fields, give nothing"]),
     ("the class", lambda t: t.string.publish(String), aioros1.SerializationError,
@@ -104,9 +104,9 @@ TABLE: list[tuple[str, Callable[[Any], Any], type[Exception], list[str]]] = [
     ("a wrong value, repeated", lambda t: t.string.publish_every(1, "x"),
      aioros1.SerializationError, ["data='x'", "publisher /string"]),
     ("a request", lambda t: t.node.call("flip", SetBool, True), aioros1.SerializationError,
-     ["expected a std_srvs/SetBoolRequest, got True", "data=True", "/flip, std_srvs/SetBool"]),
+     ["expected a std_srvs/SetBoolRequest, got True", "data=True", "(std_srvs/SetBoolRequest to /flip)"]),
     ("a wrong value of a request", lambda t: t.node.call("flip", SetBool, data="no"),
-     aioros1.SerializationError, ["data: expected", "'no'", "/flip, std_srvs/SetBool"]),
+     aioros1.SerializationError, ["data: expected", "'no'", "(std_srvs/SetBoolRequest to /flip)"]),
     # types
     ("a misspelt type", lambda t: t.node.advertise("t", "std_msgs/Strng"),
      aioros1.MessageNotFoundError, ["did you mean std_msgs/String?"]),

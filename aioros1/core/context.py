@@ -14,9 +14,11 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from aioros1 import names
 from aioros1.core.connections import Connections
+from aioros1.core.contact import Contact
 from aioros1.core.user_errors import described, is_end, leave_loop, reportable
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, Event
+from aioros1.log.library_log import LibraryLog
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -81,7 +83,10 @@ class Context:
         self.options = options
         self.timeouts: Timeouts = options.timeouts
         self.limits: Limits = options.limits
-        self.log = log
+        self.log = LibraryLog(log)
+        """What the node says itself; ``node.log`` is for users."""
+        self.loggers = log.names
+        """The names of the loggers published on ``/rosout``; the first is the node's own."""
         self.clock = clock
         self.store = store
         """Resolves type names."""
@@ -110,6 +115,8 @@ class Context:
         """Sleep until the node is closing; see :meth:`.Supervisor.pause`."""
         self.loop_state: LoopState
         """The library's state for the node's event loop; set when the node starts."""
+        self.contact = Contact(options.without_master, master.uri, self.log, self.pause)
+        """Says what happens while no master answers."""
         self._remappings = remappings
         self._supervisor = supervisor
         self._user_errors = user_errors
@@ -177,7 +184,8 @@ class Context:
 
     def report(self, error: BaseException, what: str) -> None:
         """Log an internal or unexpected error."""
-        self.log.error("%s failed: %s", what, described(error), exc_info=error)
+        what_it_is = f"{type(error).__name__}: {described(error)}"
+        self.log.error("%s failed: %s", what, what_it_is, exc_info=error)
 
     def user_error(self, error: BaseException, what: str) -> None:
         """Handle an exception from the user's code as the node's ``on_error`` says.

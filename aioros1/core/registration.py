@@ -128,8 +128,11 @@ class Registration:
         self._is_established = False
         self.forget()
 
-    async def acquire(self) -> None:
+    async def acquire(self, *, may_defer: bool = False) -> bool:
         """Add a user; return when the master has accepted the registration.
+
+        With ``may_defer``, and without an answer of the master, the user stays: the heartbeat
+        registers the entry when a master is there. Returns False then, otherwise True.
 
         Raises the master's error, and :class:`~aioros1.MasterUnreachable` when the answer
         takes longer than ``timeouts.xmlrpc``. After an error or a cancellation, nothing stays
@@ -142,11 +145,19 @@ class Registration:
         try:
             if self.users == 1 or not self._is_established:
                 await self._settle(True)
+            return True
         except BaseException as error:
+            if may_defer and isinstance(error, MasterUnreachable):
+                return False
             self.users -= 1
             if not self.users:
                 await self._take_back(isinstance(error, asyncio.CancelledError))
             raise
+
+    def defer(self) -> None:
+        """Add a user, and leave it to the heartbeat to tell the master."""
+        self.users += 1
+        self._terms.table[self.kind, self.name] = self
 
     async def release(self) -> None:
         """Remove a user; unregister after the last one. Raises :class:`~aioros1.MasterError` if
@@ -231,7 +242,8 @@ class Registration:
                     if failure is None or about is not wanted:
                         continue
                     if work is not joined or not self._unanswered:
-                        raise failure
+                        # Without the way it came, through a task that the caller does not know.
+                        raise failure.with_traceback(None) from None
         except TimeoutError as error:
             raise MasterUnreachable(str(error)) from None
 
@@ -401,7 +413,7 @@ async def _comes(answer: asyncio.Future[Exception | None], seconds: float) -> bo
 def _was_not_sent(failure: Exception | None) -> bool:
     """Whether a request never reached a master: nobody listens, or it cannot be encoded."""
     if isinstance(failure, MasterUnreachable):
-        return type(failure.__cause__) is ConnectionError
+        return not failure.was_sent
     return isinstance(failure, TypeError | ValueError | OverflowError)
 
 

@@ -13,7 +13,7 @@ from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.stats import RoleStats
-from aioros1.errors import ClosedError, SerializationError
+from aioros1.errors import ClosedError
 
 __all__ = ["Role"]
 
@@ -127,11 +127,6 @@ class Role(ABC):
             raise self._closed_error()
         if get_ident() != self._loop_state.thread_id:
             self._context.check_loop()
-
-    def _misfit(self, error: SerializationError) -> SerializationError:
-        """The error for a message that cannot be sent, with the place where it was."""
-        error.args = (f"{error} ({self.kind} {self._name}, {self.type})",)
-        return error
 
     def _closed_error(self) -> ClosedError:
         reason = self._context.close_reason

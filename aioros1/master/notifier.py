@@ -18,8 +18,10 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from aioros1.log.library_log import LibraryLog
 from aioros1.master.parameters import ParamUpdate
 from aioros1.master.registry import Notification, PublisherUpdate, Shutdown
+from aioros1.quoting import printable
 from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
 from aioros1.xmlrpc.client import HttpStatusError, XmlRpcClient
 
@@ -66,6 +68,7 @@ class Notifier:
         on_unwanted: Callable[[ParamUpdate], object],
     ) -> None:
         self._client = client
+        self._log = LibraryLog(_LOG)
         self._is_wanted = is_wanted
         self._on_unwanted = on_unwanted
         self._queues: dict[str, dict[_Slot, Notification]] = {}
@@ -94,13 +97,14 @@ class Notifier:
                 self._pauses[api].set()  # something may have changed there
             if len(queue) > _MAX_PENDING:
                 del queue[next(iter(queue))]
-                _LOG.warning("%s takes no notifications; the oldest is dropped", api)
+                self._log.complain("%s takes no notifications; the oldest is dropped", api)
         if self._waiting and self._starter is None:
             self._starter = asyncio.create_task(self._start(), name="aioros1-master-notify")
 
     async def close(self) -> None:
         """Drop all messages that are queued or being sent."""
         self._closed = True
+        self._log.close()
         tasks = list(self._tasks.values())
         if self._starter is not None:
             tasks.append(self._starter)
@@ -117,7 +121,7 @@ class Notifier:
                     api = self._waiting.popleft()
                     work = self._work(api, self._queues[api])
                     self._tasks[api] = asyncio.create_task(
-                        work, name=f"aioros1-master-notify {api}"
+                        work, name=f"aioros1-master-notify {printable(api)}"
                     )
                 await asyncio.sleep(0)
         finally:
@@ -135,7 +139,7 @@ class Notifier:
                 except (TimeoutError, ConnectionError, HttpStatusError) as error:
                     if complaint != str(error):
                         complaint = str(error)
-                        _LOG.log(_level(error), "%s", error)
+                        self._log.log(_level(error), "%s", error)
                     if failing_since is None:
                         failing_since = loop.time()
                     if isinstance(error, HttpStatusError) and error.status not in _TRY_AGAIN:

@@ -33,6 +33,7 @@ from aioros1.net.hosts import (
 )
 from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
+from aioros1.quoting import printable
 from aioros1.wire.xmlrpc import decode_response, encode_response
 from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.server import Reply, XmlRpcServer
@@ -285,7 +286,7 @@ class Master:
         # A task of its own: a request to shut down must not wait for its own end, and the
         # caller of close() may be cancelled meanwhile.
         if self._closing is None:
-            self._reason = reason
+            self._reason = printable(reason)
             self._closing = asyncio.create_task(self._close(), name="aioros1-master-close")
         return self._closing
 

@@ -14,7 +14,7 @@ from functools import lru_cache
 from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
-from aioros1.net.connecting import connect
+from aioros1.net.connecting import connect, reason_of
 from aioros1.net.ending import shut_down
 from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
@@ -181,7 +181,7 @@ class HttpClient:
                 lambda: _Connection(self._ended, pool), server.host, server.port
             )
         except OSError as error:
-            raise ConnectionError(f"cannot connect: {error}") from error
+            raise ConnectionError(f"cannot connect: {reason_of(error)}") from None
         # Not in connection_made(): uvloop never calls connection_lost() for a connection
         # that was cancelled at that moment, and close() would wait for it.
         if not connection.is_closing:
@@ -355,7 +355,10 @@ class _Connection(asyncio.Protocol):
             if not self._is_aborted:
                 self._pool.losses += 1
         self._is_paused = False
-        self._end(ConnectionResetError(f"connection lost: {exc or 'the server closed it'}"))
+        why = "the server closed it" if exc is None else str(exc)
+        if isinstance(exc, OSError):
+            why = reason_of(exc)
+        self._end(ConnectionResetError(f"connection lost: {why}"))
 
     def data_received(self, data: bytes) -> None:
         if self._answer is None:

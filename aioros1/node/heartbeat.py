@@ -103,6 +103,7 @@ class Heartbeat:
         except MasterError as error:
             self._missed(error)
             return
+        context.contact.reached()
         known, self._identity = self._identity, identity
         was_lost, self._is_lost = self._is_lost, False
         if self._is_stopped:
@@ -220,5 +221,5 @@ def _is_exhausted(error: BaseException | None) -> bool:
     while error is not None:
         if isinstance(error, OSError) and error.errno in _EXHAUSTED:
             return True
-        error = error.__cause__
+        error = error.__context__  # its cause is hidden from users
     return False

@@ -11,6 +11,7 @@ from aioros1.node.private_params import PrivateParams
 from aioros1.node.sim_time import SimTime
 from aioros1.params.params import Params
 from aioros1.topics.topics import Topics
+from aioros1.waiting import Mutex
 
 __all__ = ["Introduction"]
 
@@ -37,9 +38,25 @@ class Introduction:
         self._private_params = private_params.values
         self._warning = private_params.warning
         self._events = events
+        self._mutex = Mutex()
+        self._is_made = False
 
-    async def was_made(self) -> bool:
-        """Make the introduction; return whether the master answered throughout."""
+    async def make(self) -> bool:
+        """Make the introduction, once in the life of a node; return whether it is made.
+
+        It is not if the master does not answer throughout. Then call this again.
+        """
+        if not self._is_made:
+            async with self._mutex:
+                if not self._is_made:
+                    try:
+                        self._is_made = await self._was_made()
+                    except MasterError:
+                        self._is_made = True  # it was refused, and would be again
+                        raise
+        return self._is_made
+
+    async def _was_made(self) -> bool:
         params, context = self._params, self._context
         if self._warning:
             context.log.warning("%s", self._warning)

@@ -15,6 +15,7 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.address import Address
 from aioros1.core.awaited import awaits_caller
 from aioros1.core.context import Context
+from aioros1.core.hints import similar_node
 from aioros1.core.registration import Terms
 from aioros1.core.registrations import Registrations
 from aioros1.core.role import Role
@@ -22,7 +23,7 @@ from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
 from aioros1.core.user_errors import UserErrors
 from aioros1.core.user_tasks import Stage, UserTasks
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, NodeNotFound
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
 from aioros1.hints import NODE_HABITS, check_coroutine, explained, no_attribute
@@ -53,6 +54,7 @@ from aioros1.options import (
     NodeOptions,
     OnError,
     Timeouts,
+    WithoutMaster,
 )
 from aioros1.params.params import Params
 from aioros1.services.services import Services
@@ -95,9 +97,13 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
     current levels. ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
     With ``use_sim_time`` None, the node follows the parameter ``/use_sim_time``, which it reads
     at the start and with each heartbeat. ``heartbeat`` is how often, in seconds, the node
-    checks the master; None means never. ``on_error`` says what happens to an exception in
-    your callbacks: ``"raise"`` closes the node and raises it where you use the node, ``"log"``
-    logs it, and a function is called with it. ``local_transports`` may name
+    checks the master; None means never. ``without_master`` says what opening a role does while
+    no master answers: ``"raise"`` raises :class:`~aioros1.MasterUnreachable`, ``"wait"`` waits
+    for one, and says so once in the log, and ``"later"`` returns an open role, which is
+    registered when a master comes. With ``"wait"``, parameter methods, calls and look-ups wait
+    too; with ``"later"`` they raise, since they need an answer. ``on_error`` says what happens
+    to an exception in your callbacks: ``"raise"`` closes the node and raises it where you use
+    the node, ``"log"`` logs it, and a function is called with it. ``local_transports`` may name
     ``"intraprocess"`` and ``"unix"``: topics then bypass TCP between nodes of this library in
     one event loop, or on one Linux host, if both sides name the transport.
 
@@ -134,6 +140,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
         logger_services: bool = True,
         use_sim_time: bool | None = None,
         heartbeat: float | None = 1.0,
+        without_master: WithoutMaster = "raise",
         timeouts: Timeouts = Timeouts(),  # noqa: B008 - frozen
         limits: Limits = Limits(),  # noqa: B008 - frozen
         on_error: OnError = "raise",
@@ -155,6 +162,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
             logger_services=logger_services,
             use_sim_time=use_sim_time,
             heartbeat=heartbeat,
+            without_master=without_master,
             timeouts=timeouts,
             limits=limits,
             on_error=on_error,
@@ -221,6 +229,8 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
                 )
             ),
         )
+
+        self._contact = context.contact
 
         # The parts.
         self._acceptor = Acceptor(context, allowed)
@@ -504,10 +514,19 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
     # the graph
 
     async def peer(self, name: str) -> NodeProxy:
-        """Look up another node by name. Raises :class:`~aioros1.MasterError` if there is none."""
+        """Look up another node by name.
+
+        Raises :class:`~aioros1.NodeNotFound` if there is none, and
+        :class:`~aioros1.MasterError`.
+        """
         context = self._context
         name = context.resolve_name(name)
-        return NodeProxy(context.xmlrpc, await self.master.lookup_node(name), self.name, name)
+        try:
+            uri = await context.contact.reach(lambda: self.master.lookup_node(name))
+        except NodeNotFound as error:
+            similar = await similar_node(context, name)
+            raise NodeNotFound(error.code, f"{error.status}{similar}") from None
+        return NodeProxy(context.xmlrpc, uri, self.name, name)
 
     async def wait_for_master(self, *, timeout: float | None = None) -> None:
         """Wait until the master answers.
@@ -555,7 +574,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
         self._supervisor.state = "open"
         if options.use_sim_time:
             context.clock.simulate()
-        if not (master_is_there and await self._introduction.was_made()):
+        if not (master_is_there and await self._introduction.make()):
             context.spawn(self._introduce_later, name=f"{self.name} introduction")
         if self._own_address.is_given:
             context.spawn(self._check_address, name=f"{self.name} address")
@@ -575,7 +594,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
 
     async def _introduce_later(self) -> None:
         await self.wait_for_master()
-        while not await self._introduction.was_made():
+        while not await self._introduction.make():
             await self.wait_for_master()
 
     async def _finish(self) -> None:
@@ -603,6 +622,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
         if self._rosout is not None:
             self._rosout.detach()
         self._levels.restore()
+        self._context.log.close()
         if self._context.loop_state.loop.is_closed():
             return  # Python drops the rest: nothing can be scheduled any more
         self._user_tasks.cancel_all()

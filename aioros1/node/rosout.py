@@ -11,6 +11,7 @@ from typing import Any
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
 from aioros1.log.levels import LevelChanges, ros_level
+from aioros1.log.library_log import ROSOUT
 from aioros1.log.loggers import WeakHandler, topmost
 from aioros1.params.params import Params
 from aioros1.time import Time
@@ -56,8 +57,8 @@ class Rosout:
         """Whether subscribers of the first records may still be connecting."""
         self._progress = Waiters()
         # As rosout does; the application's own handlers decide what else it shows.
-        levels.set_default(context.log.logger, logging.INFO)
-        self._handler = WeakHandler(topmost(context.log.names), self._take)
+        levels.set_default(logging.getLogger(context.loggers[0]), logging.INFO)
+        self._handler = WeakHandler(topmost(context.loggers), self._take)
 
     def detach(self) -> None:
         """Restore the loggers."""
@@ -72,7 +73,7 @@ class Rosout:
         while self._publisher is None:
             try:
                 self._publisher = await self._topics.advertise(
-                    "/rosout", "rosgraph_msgs/Log", options
+                    ROSOUT, "rosgraph_msgs/Log", options, warns=False
                 )
             except MasterError:
                 self._expect(False)
@@ -81,7 +82,7 @@ class Rosout:
         with contextlib.suppress(MasterError):
             disabled = await self._params.get("/rosout_disable_topics_generation", False)
             self._has_topics = disabled is not True
-        publication = self._topics.published("/rosout")
+        publication = self._topics.published(ROSOUT)
         known = publication.known_subscribers if publication is not None else 0
         self._expect(known > 0)
         with contextlib.suppress(TimeoutError):
@@ -128,7 +129,7 @@ class Rosout:
 
     def _is_of_another(self, record: logging.LogRecord) -> bool:
         """Whether it comes from a node whose name, and thus its logger, is below ours."""
-        own, name = self._context.log.logger.name, self._context.name
+        own, name = self._context.loggers[0], self._context.name
         if f"{record.name}.".startswith(f"{own}."):
             # The handler of the nearest node is called first.
             record.__dict__.setdefault("ros_node", name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal, TypedDict, TypeVar, Unpack, overload
 
+from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
 from aioros1.hints import check_takes, explained, methods_of
 from aioros1.idl import Message, Service
@@ -32,6 +33,7 @@ class _CallerKeywords(TypedDict, total=False):
 class ServiceMethods:
     """The service methods of :class:`~aioros1.Node`."""
 
+    _contact: Contact
     _services: Services
 
     @overload
@@ -89,7 +91,7 @@ class ServiceMethods:
         if handler is not None:
             what = "the serialised request" if raw else "the request"
             check_takes(handler, f"service {name}: the handler", what)
-        opening = self._services.advertise(name, type, handler, options)
+        opening = self._services.advertise(name, type, handler, options, self._contact.policy)
         return Opening(opening, f"provider of service {name}")
 
     @overload
@@ -186,7 +188,7 @@ class ServiceMethods:
         :class:`~aioros1.HandshakeError` when it refuses, :class:`~aioros1.MasterError`,
         :class:`~aioros1.InvalidNameError` and :class:`~aioros1.ClosedError`.
         """
-        return await self._services.type_of(name)
+        return await self._contact.reach(lambda: self._services.type_of(name))
 
     async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
         """Wait until a service is registered and its provider answers.

@@ -15,6 +15,7 @@ from aioros1.core.context import Context
 from aioros1.names import canonicalize
 from aioros1.net.local_transports import LocalTransports
 from aioros1.params.params import Params
+from aioros1.quoting import printable
 from aioros1.services.services import Services
 from aioros1.topics.topics import Topics
 from aioros1.wire.xmlrpc import carriable
@@ -133,17 +134,19 @@ class SlaveApi:
             return _wrong("msg", reason, "a string")
         addressee = _REPLACED.match(reason)
         if addressee is not None and canonicalize(addressee[1]) != self._context.name:
-            self._context.log.info("ignored a shutdown that is meant for %.200s", addressee[1])
-            return [-1, f"this is {self._context.name}, not {addressee[1]:.200}", 0]
-        who = caller_id if isinstance(caller_id, str) else "unknown caller"
-        return Reply([1, "shutdown", 0], after=lambda: self._shut_down(f"[{who}] {reason}"))
+            self._context.log.info("ignored a shutdown that is meant for %s", addressee[1])
+            text = f"this is {self._context.name}, not {printable(addressee[1])}"
+            return [-1, text, 0]
+        who = printable(caller_id) if isinstance(caller_id, str) else "unknown caller"
+        why = f"[{who}] {printable(reason)}"
+        return Reply([1, "shutdown", 0], after=lambda: self._shut_down(why))
 
     def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
         if not isinstance(key, str) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
         # The master sends the key with a trailing slash, tools without.
         if not self._params.announced(canonicalize(key), value):
-            return [-1, f"not subscribed to parameter {key}", 0]
+            return [-1, f"not subscribed to parameter {printable(key)}", 0]
         return [1, "", 0]
 
     def publisher_update(self, caller_id: Any, topic: Any, publishers: Any) -> Triple:
@@ -162,7 +165,7 @@ class SlaveApi:
         if not isinstance(protocols, list) or not protocols:
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
         if self._topics.published(canonicalize(topic)) is None:
-            return [-1, f"{self._context.name} does not publish {topic}", []]
+            return [-1, f"{self._context.name} does not publish {printable(topic)}", []]
         # Skip other protocols, whatever they look like: the caller may well support this
         # one too.
         readable = [each for each in protocols if _is_protocol(each)]
@@ -190,7 +193,7 @@ def _bus_info(info: ConnectionInfo) -> list[Any]:
 
 
 def _wrong(parameter: str, value: object, expected: str) -> Triple:
-    return [-1, f"{parameter} must be {expected}, got {value!r:.100}", 0]
+    return [-1, f"{parameter} must be {expected}, got {printable(repr(value), 100)}", 0]
 
 
 def _is_protocol(value: object) -> bool:

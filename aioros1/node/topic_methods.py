@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any, Literal, TypedDict, TypeVar, Unpack, overload
 
+from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
 from aioros1.hints import check_takes, explained, methods_of
 from aioros1.idl import Message
@@ -40,6 +41,7 @@ class _SubscriberKeywords(TypedDict, total=False):
 class TopicMethods:
     """The topic methods of :class:`~aioros1.Node`."""
 
+    _contact: Contact
     _topics: Topics
 
     @overload
@@ -76,7 +78,8 @@ class TopicMethods:
             tcp_nodelay=tcp_nodelay,
             headers=headers,
         )
-        return Opening(self._topics.advertise(topic, type, options), f"publisher {topic}")
+        opening = self._topics.advertise(topic, type, options, self._contact.policy)
+        return Opening(opening, f"publisher {topic}")
 
     @overload
     def subscribe(
@@ -163,7 +166,7 @@ class TopicMethods:
         if callback is not None:
             what = "the serialised message" if raw else "the message"
             check_takes(callback, f"subscriber {topic}: the callback", what)
-        opening = self._topics.subscribe(topic, type, callback, options)
+        opening = self._topics.subscribe(topic, type, callback, options, self._contact.policy)
         return Opening(opening, f"subscriber {topic}")
 
     @overload

@@ -206,8 +206,9 @@ class FollowedParam(Shared[Following]):
         believed = self._believed
         with self._recording() as own:
             value = await context.registrar.subscribe_param(self.name, context.address.uri)
-        if not was_followed:
+        if not (was_followed or self.was_deferred):
             self.value = value  # that is no update
+        self.was_deferred = False
         if believed == self._believed:
             self._found(value, (), own)  # it may have changed while the master was away
         if own or believed != self._believed:

@@ -9,6 +9,7 @@ from typing import Any
 
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.options import WithoutMaster
 from aioros1.params.cache import ParamCache
 from aioros1.params.followed import FollowedParam
 from aioros1.params.subscriber import ParamSubscriber
@@ -29,7 +30,12 @@ class Params:
         self._left_alone: set[asyncio.Future[Exception | None]] = set()
 
     async def subscribe(
-        self, key: str, default: Any, *, keeps_updates: bool = True
+        self,
+        key: str,
+        default: Any,
+        without_master: WithoutMaster = "raise",
+        *,
+        keeps_updates: bool = True,
     ) -> ParamSubscriber:
         """See :meth:`aioros1.Node.subscribe_param`.
 
@@ -41,7 +47,7 @@ class Params:
         if followed is None:
             followed = FollowedParam(context, key, self.followed)
         subscriber = ParamSubscriber(context, followed, default, keeps_updates)
-        await followed.acquire(subscriber)
+        await followed.acquire(subscriber, without_master)
         await context.admit(subscriber, subscriber._abort)
         followed.keep_true()
         subscriber._begin()

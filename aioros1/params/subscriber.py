@@ -107,6 +107,13 @@ class ParamSubscriber(Role):
             while len(self._updates) > _MAX_UPDATES or (
                 self._weight > _MAX_WEIGHT and len(self._updates) > 1
             ):
+                if not self.stats.dropped:
+                    self._context.log.warning(
+                        "parameter subscriber %s: an update was dropped, because %s wait to be "
+                        "taken. `value` is right all the same. Further drops are only counted, in "
+                        "`stats`",
+                        *(self.name, len(self._updates)),
+                    )
                 self._pop()
                 self.stats.dropped += 1
         self._arrived.wake()

@@ -13,6 +13,7 @@ from typing import Any, Generic, TypeVar, cast
 from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
+from aioros1.core.hints import Hint, similar_service
 from aioros1.core.role import Role
 from aioros1.errors import (
     ClosedError,
@@ -21,6 +22,7 @@ from aioros1.errors import (
     MasterError,
     SerializationError,
     ServiceError,
+    ServiceNotFound,
     ServiceUnavailable,
 )
 from aioros1.hints import check_kinds
@@ -165,7 +167,7 @@ class ServiceCaller(Role, Generic[Q, A]):
             try:
                 request = side.outgoing(request, fields)
             except SerializationError as error:
-                raise self._misfit(error)  # noqa: B904 - it is the same error
+                raise error.locate(side.outgoing_type, f"to {self.name}")  # noqa: B904 - the same
         answer = await self._call(side, request, timeout)
         return cast("A", answer)
 
@@ -189,7 +191,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         try:
             frame = side.frame(request)
         except SerializationError as error:
-            raise self._misfit(error)  # noqa: B904 - it is the same error
+            raise error.locate(side.outgoing_type, f"to {self.name}")  # noqa: B904 - the same
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
         kept, mutex = self._kept, self._mutex
         if seconds is None and kept is not None and not mutex.is_held and kept.link.is_fresh:
@@ -201,7 +203,8 @@ class ServiceCaller(Role, Generic[Q, A]):
             finally:
                 mutex.release()
         try:
-            async with self._limits.limit(seconds, f"service {self.name}: no answer"):
+            async with self._limits.limit(seconds, f"service {self.name}: no answer") as limit:
+                limit.why = self._context.contact.obstacle
                 if not self.options.persistent:
                     return await self._call_once(side, frame)
                 async with mutex:
@@ -246,10 +249,17 @@ class ServiceCaller(Role, Generic[Q, A]):
         """
         # The master announces no new services, so we have to poll.
         backoff = Backoff(first=0.02, longest=0.5)
-        async with self._limits.limit(timeout, f"service {self.name} did not appear") as limit:
-            while (obstacle := await self._obstacle()) is not None:
-                limit.why = obstacle
-                await self._context.pause(backoff.delay())
+        obstacle: Exception | None = None
+        seen = f"service {self.name}: "
+        what = f"service {self.name} did not appear"
+        async with self._limits.limit(timeout, what) as limit:
+            with Hint(
+                *(self._context, "services", self.name),
+                lambda: str(obstacle or "").removeprefix(seen),
+                timeout,
+            ) as limit.why:
+                while (obstacle := await self._obstacle()) is not None:
+                    await self._context.pause(backoff.delay())
 
     async def _obstacle(self) -> Exception | None:
         """Why the service is not available; None when it is."""
@@ -322,7 +332,7 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     async def _connect(self) -> CallerConnection:
         context, options = self._context, self.options
-        self.provider_uri = await look_up(context, self.name)
+        self.provider_uri = await context.contact.reach(self._look_up)
         connection = await connect_to(
             context,
             self.provider_uri,
@@ -337,6 +347,13 @@ class ServiceCaller(Role, Generic[Q, A]):
         connection.link.ended = lambda: self._drop(connection)  # also between calls
         context.connections.add(self.kind, connection.link, connection.info)
         return connection
+
+    async def _look_up(self) -> str:
+        try:
+            return await look_up(self._context, self.name)
+        except ServiceNotFound as error:
+            similar = await similar_service(self._context, self.name)
+            raise ServiceNotFound(f"{error.text}{similar}") from None
 
     def _drop(self, connection: CallerConnection) -> None:
         connection.link.ended = None  # breaks a reference cycle

@@ -43,6 +43,7 @@ Work: TypeAlias = Coroutine[Any, Any, bytes]
 class Provided(Protocol):
     """What a connection needs of its service."""
 
+    name: str
     side: Side
     handler: Handler[Any, Any] | None
     slots: asyncio.Semaphore | None
@@ -213,6 +214,7 @@ class ProviderConnection:
         if not isinstance(error, Exception):
             return encode_failure(described(self._provision.handler_failed(error)))
         if isinstance(error, SerializationError):
+            error.locate(self._side.outgoing_type, f"from {self._provision.name}")
             self._provision.log_error("bad response", error)
             return encode_failure(f"the service made a bad response: {described(error)}")
         self._provision.log_error("the handler failed", error)

@@ -139,7 +139,7 @@ class Provision(Shared[Providing]):
         """
         if not self.is_open:
             raise ServiceError("the service is shut down")
-        call: ServiceCall[Any, Any] = ServiceCall(request, header, self.side)
+        call: ServiceCall[Any, Any] = ServiceCall(self.name, request, header, self.side)
         self.calls.append(call)
         self._unanswered.add(call)
         self.arrived.wake()
@@ -168,8 +168,9 @@ class Provision(Shared[Providing]):
             await self.idle.wait()
 
     def log_error(self, what: str, error: Exception) -> None:
-        """Log what failed, with the traceback."""
-        self._context.log.error("service %s: %s", self.name, what, exc_info=error)
+        """Log what failed, with the traceback; callers can make it fail as often as they like."""
+        about = (self.name, what, type(error), str(error))
+        self._context.log.complain("service %s: %s", self.name, what, about=about, error=error)
 
     def end_calls(self, error: ClosedError) -> None:
         """End all waiting calls; answering one later raises ``error``."""

@@ -9,6 +9,8 @@ from typing import Any
 from aioros1.core.context import Context
 from aioros1.errors import HandshakeError
 from aioros1.net.tcpros import Stream
+from aioros1.options import WithoutMaster
+from aioros1.quoting import printable
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
 from aioros1.services.lookup import probe, service_class_of, type_of
 from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
@@ -36,6 +38,7 @@ class Services:
         type: Any,
         handler: Handler[Any, Any] | None,
         options: ServiceProviderOptions,
+        without_master: WithoutMaster = "raise",
     ) -> ServiceProvider[Any, Any]:
         """See :meth:`aioros1.Node.advertise_service`."""
         context = self._context
@@ -62,7 +65,7 @@ class Services:
             context, provision, service_class, options
         )
         try:
-            await provision.acquire(provider)
+            await provision.acquire(provider, without_master)
         except BaseException:
             provider._abort()  # there may be calls already
             raise
@@ -80,8 +83,9 @@ class Services:
         elif options.raw:
             service_class = None
         else:
-            async with deadline(options.timeout, f"service {name}: no answer"):
-                header = await probe(context, name, self._probes)
+            async with deadline(options.timeout, f"service {name}: no answer") as limit:
+                limit.why = context.contact.obstacle
+                header = await context.contact.reach(lambda: probe(context, name, self._probes))
             service_class = service_class_of(context, name, header)
         caller: ServiceCaller[Any, Any] = ServiceCaller(context, name, service_class, options)
         return await context.admit(caller, caller._abort)
@@ -96,10 +100,11 @@ class Services:
     ) -> Any:
         """See :meth:`aioros1.Node.call`."""
         async with (
-            deadline(timeout, f"service {self._context.resolve_name(name)}: no answer"),
-            await self.caller(name, type, ServiceCallerOptions()) as caller,
+            deadline(timeout, f"service {self._context.resolve_name(name)}: no answer") as limit,
         ):
-            return await caller.call(request, **fields)
+            limit.why = self._context.contact.obstacle
+            async with await self.caller(name, type, ServiceCallerOptions()) as caller:
+                return await caller.call(request, **fields)
 
     async def wait_for(self, name: str, timeout: float | None) -> None:
         """See :meth:`aioros1.Node.wait_for_service`."""
@@ -123,7 +128,8 @@ class Services:
         provision = self.provisions.get(server.service or "")
         if provision is None:
             name = self._context.name
-            raise HandshakeError(name, f"{name} has no service {server.service}")
+            service = printable(server.service)
+            raise HandshakeError(server.peer, f"{name} has no service {service}")
         await provision.serve(stream, server)
 
     async def end_calls(self) -> None:

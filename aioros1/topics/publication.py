@@ -15,14 +15,16 @@ the graph sees them as one. This is the sending half of the data path:
 from __future__ import annotations
 
 import asyncio
+from collections import Counter
 from typing import TYPE_CHECKING, Protocol
 
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
-from aioros1.errors import Md5MismatchError
+from aioros1.errors import HandshakeError, Md5MismatchError
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
+from aioros1.quoting import printable
 from aioros1.waiting import Waiters
 from aioros1.wire.allocation import keep_memory
 from aioros1.wire.handshake import Server, TopicOffer
@@ -42,6 +44,8 @@ class Publishing(Protocol):
     stats: RoleStats
     _latched: Frame | None
     """The message that every new subscriber gets first."""
+    _warns: bool
+    """Whether to warn of the first message that is dropped."""
 
     @property
     def is_open(self) -> bool: ...
@@ -80,6 +84,7 @@ class Publication(Shared[Publishing]):
         self.has_subscribers = False
         self.known_subscribers = 0
         """How many subscribers the master named when this was last registered."""
+        self._refusal = ""  # of the last subscriber that was refused
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
@@ -95,6 +100,13 @@ class Publication(Shared[Publishing]):
     def bytes_published(self) -> int:
         """Bytes that all publishers have published so far, including closed ones."""
         return self._bytes_of_closed + sum(each.stats.bytes for each in self.roles)
+
+    @property
+    def obstacle(self) -> str:
+        """What keeps subscribers from being connected, as far as it is known here."""
+        if self._refusal or self.registration.is_established:
+            return self._refusal
+        return f"the master does not know of publisher {self.name} yet"
 
     @property
     def is_drained(self) -> bool:
@@ -167,6 +179,15 @@ class Publication(Shared[Publishing]):
         if self._waiting(link, publisher) < publisher.options.queue_size:
             link.queue.append((frame, publisher))
             return
+        if not publisher.stats.dropped:
+            self._first_drop(
+                publisher,
+                "publisher %s: a message for %s was dropped, because %s wait for it already "
+                "(queue_size, with overflow=%s). `await send()` waits for room. Further drops are "
+                "only counted, in `dropped`",
+                *(self.name, link.info.peer, publisher.options.queue_size),
+                repr(publisher.options.overflow),
+            )
         publisher.stats.dropped += 1
         link.info.stats.dropped += 1
         if publisher.options.overflow == "drop_oldest":
@@ -175,6 +196,10 @@ class Publication(Shared[Publishing]):
                     del link.queue[index]
                     break
             link.queue.append((frame, publisher))
+
+    def _first_drop(self, publisher: Publishing, text: str, *args: object) -> None:
+        if publisher._warns:
+            self._context.log.warning(text, *args)
 
     def _flush(self) -> None:
         pending = self._pending
@@ -203,10 +228,14 @@ class Publication(Shared[Publishing]):
         headers: dict[str, str] = {}
         for publisher in self.roles:
             headers.update(publisher.options.headers or {})
-        answer = server.accept_topic(context.name, offer, headers)
+        try:
+            answer = server.accept_topic(context.name, offer, headers)
+        except HandshakeError as error:
+            self._refusal = f"{server.peer} was refused: {printable(error.text)}"
+            raise
         theirs = server.header.get("type", "*")
         if theirs not in ("*", offer.type):
-            context.log.warning(
+            context.log.complain(
                 "%s subscribes to %s as %s, but it is %s; accepted, as their md5sums are the same",
                 *(server.caller_id, offer.topic, theirs, offer.type),
             )
@@ -268,6 +297,18 @@ class Publication(Shared[Publishing]):
         self._look()
 
     def messages_lost(self, link: OutgoingLink) -> None:
+        lost = Counter(publisher for _, publisher in link.queue)
+        for publisher, count in lost.items():
+            # A subscriber may go while the publisher closes, and leave what waits for it.
+            if publisher.is_open and not publisher.stats.dropped:
+                self._first_drop(
+                    publisher,
+                    "publisher %s: the connection to %s has ended, and with it %s of its messages "
+                    "(queue_size=%s, overflow=%s) that waited there. Further losses are only "
+                    "counted, in `dropped`",
+                    *(self.name, link.info.peer, count, publisher.options.queue_size),
+                    repr(publisher.options.overflow),
+                )
         for _, publisher in link.queue:
             publisher.stats.dropped += 1
             link.info.stats.dropped += 1
@@ -277,8 +318,8 @@ class Publication(Shared[Publishing]):
         self._closing.discard(link)
         self._look()
         if link.stalled:
-            self._context.log.warning(
-                "publisher %s: %s was cut off, because %s",
+            self._context.log.complain(
+                "publisher %s: %s was cut off, because %s; what waited for it is lost",
                 *(self.name, link.info.peer, link.failure),
             )
         self._context.connections.remove(link, link.failure)
@@ -315,7 +356,12 @@ class Publication(Shared[Publishing]):
                 for link in links:
                     await link.wait_closed()
         except TimeoutError:
-            pass
+            for link in self._slow:
+                self._context.log.warning(
+                    "publisher %s: closed, and %s messages that waited for %s are lost: it did not "
+                    "take them within %s s",
+                    *(self.name, len(link.queue), link.info.peer, self._context.timeouts.close),
+                )
         finally:
             for link in links:
                 link.abort()

@@ -11,6 +11,7 @@ from aioros1._public import public
 from aioros1.clock.timer import Timer
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
+from aioros1.core.hints import Hint
 from aioros1.core.role import Role
 from aioros1.errors import ClosedError, SerializationError
 from aioros1.hints import check_takes
@@ -48,6 +49,8 @@ class Publisher(Role, Generic[M]):
         publication: Publication,
         message_class: type[M],
         options: PublisherOptions,
+        *,
+        warns: bool = True,
     ) -> None:
         super().__init__(context, publication.name)
         self.options = options
@@ -55,6 +58,7 @@ class Publisher(Role, Generic[M]):
         self.message_class = message_class
         """The class of its messages."""
         self._latched: Frame | None = None  # the message that every new subscriber gets first
+        self._warns = warns  # of the first message that is dropped
         self._publication = publication
         self._blocks = options.overflow == "block"
         self._latches = options.latch
@@ -119,7 +123,7 @@ class Publisher(Role, Generic[M]):
             else:
                 frame = self._encode(msg, fields)
         except SerializationError as error:
-            raise self._misfit(error)  # noqa: B904 - it is the same error
+            raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
         if self._blocks and publication.is_congested:
             self._require_room()
         if self._latches:
@@ -179,7 +183,7 @@ class Publisher(Role, Generic[M]):
             else:
                 frame = self._encode(msg, fields)
         except SerializationError as error:
-            raise self._misfit(error)  # noqa: B904 - it is the same error
+            raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
         if self._latches:
             self._latched = frame
         publication.send(frame, self)
@@ -210,7 +214,7 @@ class Publisher(Role, Generic[M]):
             try:
                 self._frame(message_from(self.message_class, msg, fields, "msg"))
             except SerializationError as error:
-                raise self._misfit(error)  # noqa: B904 - it is the same error
+                raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
         else:
             check_takes(msg, f"publisher {self.name}: the function that makes messages", "the time")
 
@@ -249,17 +253,22 @@ class Publisher(Role, Generic[M]):
     async def wait_for_subscribers(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` subscribers are connected.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError` after ``timeout`` seconds, whose text says what is in the
+        way, and :class:`~aioros1.ClosedError`.
         """
         self._check_open()
-        await self._wait_until(
-            lambda: self.subscriber_count >= n, timeout, f"{n} subscribers did not connect"
-        )
+        publication = self._publication
+        what = f"{n} subscribers did not connect"
+        hint = Hint(self._context, "subscribers", self.name, lambda: publication.obstacle, timeout)
+        with hint:
+            await self._wait_until(lambda: self.subscriber_count >= n, timeout, what, hint)
 
-    async def _wait_until(self, predicate: Any, timeout: float | None, what: str) -> None:
+    async def _wait_until(
+        self, predicate: Any, timeout: float | None, what: str, why: object = ""
+    ) -> None:
         waiters = self._publication.changed
-        async with deadline(timeout, f"publisher {self.name}: {what}"):
+        async with deadline(timeout, f"publisher {self.name}: {what}") as limit:
+            limit.why = why
             while not predicate():
                 await waiters.wait()
                 self._check_open()

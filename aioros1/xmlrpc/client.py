@@ -15,6 +15,7 @@ from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerErro
 from aioros1.net.http_client import HttpClient, server_at
 from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
+from aioros1.quoting import printable
 from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
 from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault, decode_response, encode_call
@@ -90,7 +91,7 @@ class XmlRpcClient:
             server = server_at(uri, any_path=any_path)
         except ValueError:
             raise ConnectionError(
-                f"{uri[:200]!r} is not the URI of a ROS node or master (http://host:port/)"
+                f"{printable(uri)!r} is not the URI of a ROS node or master (http://host:port/)"
             ) from None
         seconds = self._timeouts.xmlrpc if timeout is None else timeout
         limit = None if seconds == math.inf else seconds
@@ -106,16 +107,19 @@ class XmlRpcClient:
             )
         except TimeoutError as error:
             if self._closed:
-                raise ConnectionAbortedError(f"{method} at {uri}: the client was closed") from None
-            raise TimeoutError(f"{method} at {uri}: {error}") from None
+                raise ConnectionAbortedError(
+                    f"{_place(method, uri)}: the client was closed"
+                ) from None
+            raise TimeoutError(f"{_place(method, uri)}: {error}") from None
         except ConnectionResetError as error:
-            raise ConnectionResetError(f"{method} at {uri}: {error}") from error
+            raise ConnectionResetError(f"{_place(method, uri)}: {error}") from None
         except ConnectionError as error:
-            raise ConnectionError(f"{method} at {uri}: {error}") from error
+            raise ConnectionError(f"{_place(method, uri)}: {error}") from None
         except HttpStatusError as error:
-            raise HttpStatusError(f"{method} at {uri}: {error}", error.status) from None
+            what = f"{_place(method, uri)}: {printable(error)}"
+            raise HttpStatusError(what, error.status) from None
         except (HttpError, XmlRpcError) as error:
-            raise XmlRpcError(f"{method} at {uri}: {error}") from None
+            raise XmlRpcError(f"{_place(method, uri)}: {printable(error)}") from None
 
     def losses(self, uri: str) -> int:
         """How many kept connections to the server at ``uri`` were lost, as far as it is known.
@@ -143,17 +147,22 @@ class XmlRpcClient:
 def is_answer(error: MasterError | PeerError) -> bool:
     """Whether whoever is at the URI answers XML-RPC, whatever it has answered."""
     is_silent = isinstance(error, MasterUnreachable | PeerUnreachable)
-    return not is_silent and not isinstance(error.__cause__, XmlRpcError)
+    return not is_silent and not isinstance(error.__context__, XmlRpcError)
 
 
 def is_judgement(error: MasterError | PeerError) -> bool:
     """Whether the other side has judged the request: it refused, or raised a fault."""
-    return error.is_refusal or isinstance(error.__cause__, XmlRpcFault)
+    return error.is_refusal or isinstance(error.__context__, XmlRpcFault)
 
 
 def as_it_is(value: Any) -> Any:
     """What reads an answer that nothing is to be made of."""
     return value
+
+
+def _place(method: str, uri: str) -> str:
+    """What was asked, and where; others may have chosen the address."""
+    return f"{method} at {printable(uri)}"
 
 
 async def call_triple(
@@ -162,7 +171,7 @@ async def call_triple(
     method: str,
     params: tuple[Any, ...],
     refused: type[MasterError] | type[PeerError],
-    unreachable: type[MasterUnreachable] | type[PeerUnreachable],
+    unreachable: Callable[[str, OSError], MasterError | PeerError],
     *,
     bare: bool = False,
     read: Callable[[Any], T] = as_it_is,
@@ -172,33 +181,40 @@ async def call_triple(
     """Call a method and return what ``read`` makes of the value of its answer.
 
     Raises ``refused`` for any code but 1, for a fault and for an answer that is not a
-    triple or that ``read`` cannot read; ``unreachable`` when there is no answer. With
-    ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so.
+    triple or that ``read`` cannot read, and what ``unreachable(method, error)`` makes of the
+    error when there is no answer. These errors say all that there is to say, and have no
+    causes: what a peer wrote is quoted in them. With ``bare`` an answer need not be a triple:
+    roscpp answers ``getBusStats`` so.
     """
+    place = _place(method, uri)
     try:
         answer = await client.call(uri, method, *params, timeout=timeout, any_path=any_path)
     except XmlRpcFault as fault:
-        what = f"{method} at {uri}: {fault.text}"
-        raise refused(fault.code, what, is_refusal=False) from fault
+        what = f"{place}: {printable(fault.text)}"
+        raise refused(fault.code, what, is_refusal=False) from None
     except XmlRpcError as error:
         whose = "master" if refused is MasterError else "node"
         what = f"{error}; expected the answer of a ROS {whose}"
-        raise refused(-1, what, is_refusal=False) from error
-    except (OSError, TimeoutError) as error:
-        raise unreachable(str(error)) from error
+        raise refused(-1, what, is_refusal=False) from None
+    except OSError as error:  # a TimeoutError is one
+        raise unreachable(method, error) from None
     except ClosedError as error:  # the client is closed, and with it its node
-        raise ClosedError(f"{method} at {uri}: {error}") from error
+        raise ClosedError(f"{place}: {error}") from None
     if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
         code, status, value = answer
         if code != 1:
-            raise refused(code, f"{method} at {uri}: {status}")
+            raise refused(code, f"{place}: {printable(status)}")
     elif bare:
         value = answer
     else:
-        what = f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}"
+        what = f"{place}: expected [code, status, value], got {_shown(answer)}"
         raise refused(-1, what, is_refusal=False)
     try:
         return read(value)
     except (TypeError, ValueError, LookupError, AttributeError) as error:
-        what = f"{method} at {uri}: cannot read {value!r:.200}: {error}"
-        raise refused(-1, what, is_refusal=False) from error
+        what = f"{place}: cannot read {_shown(value)}: {printable(error)}"
+        raise refused(-1, what, is_refusal=False) from None
+
+
+def _shown(answer: Any) -> str:
+    return printable(repr(answer), 200)

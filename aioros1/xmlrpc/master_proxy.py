@@ -5,9 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
+from urllib.parse import urlsplit
 
 from aioros1._public import public
-from aioros1.errors import MasterError, MasterUnreachable
+from aioros1.errors import MasterError, MasterUnreachable, NodeNotFound
 from aioros1.xmlrpc.client import (
     XmlRpcClient,
     as_it_is,
@@ -74,7 +75,7 @@ class MasterProxy:
         params = (self.caller_id, *params)
         try:
             value = await call_triple(
-                *(self._client, self.uri, method, params, MasterError, MasterUnreachable),
+                *(self._client, self.uri, method, params, MasterError, self._unreachable),
                 read=read,
                 timeout=self._timeout,
                 any_path=True,  # the user chose this URI
@@ -86,11 +87,34 @@ class MasterProxy:
         self.last_seen = time.monotonic()
         return value
 
+    def _unreachable(self, method: str, error: OSError) -> MasterUnreachable:
+        # Only then was nothing sent; the other errors are more special ones.
+        if type(error) is not ConnectionError:
+            return MasterUnreachable(str(error))
+        advice = (
+            "no master is there: start one with `aioros1 master`, set ROS_MASTER_URI to the one "
+            'you have, or let the node wait for it with without_master="wait"'
+        )
+        parts = urlsplit(self.uri)
+        if parts.port is None:
+            named = f"http://{parts.netloc}:11311"
+            advice = f"a URI without a port means port 80, did you mean {named}? If not, {advice}"
+        return MasterUnreachable(str(error), advice=advice, was_sent=False)
+
     # look-ups
 
     async def lookup_node(self, name: str) -> str:
-        """The URI of a node's slave API."""
-        return await self.call("lookupNode", name, read=str)
+        """The URI of a node's slave API.
+
+        Raises :class:`~aioros1.NodeNotFound` if the master knows no node of that name.
+        """
+        try:
+            return await self.call("lookupNode", name, read=str)
+        except MasterError as error:
+            if not error.is_refusal:
+                raise
+            text = f"no node {name}: the master at {self.uri} knows none of that name"
+            raise NodeNotFound(error.code, text) from None
 
     async def lookup_service(self, name: str) -> str:
         """The ``rosrpc://host:port`` of a service's provider."""

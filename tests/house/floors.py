@@ -29,6 +29,7 @@ VALUES = (
     "errors",
     "time",
     "names",
+    "quoting",
     "options",
     "connection",
     "waiting",
