@@ -28,6 +28,14 @@ comes later still is put right when the value is next read."""
 _Change = tuple[str, Any]
 
 
+_MAX_SAID = 1000
+"""Keys that are remembered until the value is read; more of them are one change of it all."""
+
+
+_MOST_OTHERS = 8
+"""Readings after which a value counts even if others are announced all the time."""
+
+
 class Following(Protocol):
     """What a followed parameter needs of a subscriber."""
 
@@ -46,6 +54,7 @@ class FollowedParam(Shared[Following]):
     changes. So a notice says what holds only while the node itself changes nothing. Otherwise
     it says only where to look, and the value is read. It is also read some time after every
     notice and every change, so that the last value is right whatever was lost or overtaken.
+    If it is another then, and nothing is announced until it is read once more, it counts.
     """
 
     kind = "parameter"
@@ -60,6 +69,9 @@ class FollowedParam(Shared[Following]):
         self._doubtful_until = float("-inf")
         self._said: dict[str, None] = {}  # keys of notices that were not believed
         self._believed = 0  # notices
+        # Readings in a row that another value came of, and the notices believed before the last.
+        self._others = 0
+        self._others_since = 0
         # For each reading in progress, what this node has set since it began.
         self._meanwhile: list[list[_Change]] = []
 
@@ -80,6 +92,8 @@ class FollowedParam(Shared[Following]):
         """The master says that ``key``, which :meth:`concerns` this, was set to ``value``."""
         if self._is_in_doubt:
             self._said[key if is_below(key, self.name) else self.name] = None
+            if len(self._said) > _MAX_SAID:
+                self._said = {self.name: None}
             self._rereading.soon()
         else:
             self._believed += 1
@@ -95,6 +109,9 @@ class FollowedParam(Shared[Following]):
             or asyncio.get_running_loop().time() < self._doubtful_until
         )
 
+    def _doubt_notices(self) -> None:
+        self._doubtful_until = asyncio.get_running_loop().time() + _IN_DOUBT
+
     # changes by this node
 
     def change_begins(self) -> None:
@@ -105,7 +122,7 @@ class FollowedParam(Shared[Following]):
     def change_ends(self) -> None:
         """The master has answered a change, or cannot be asked."""
         self._own -= 1
-        self._doubtful_until = asyncio.get_running_loop().time() + _IN_DOUBT
+        self._doubt_notices()
         if not self._own and self._own_overlap:
             self._own_overlap = False
             self._rereading.soon()  # in which order the master made the changes is unknown
@@ -120,6 +137,7 @@ class FollowedParam(Shared[Following]):
 
     def doubt(self) -> None:
         """Read the value as soon as possible: it may have changed."""
+        self._doubt_notices()
         self._rereading.soon()
 
     # the value
@@ -150,6 +168,7 @@ class FollowedParam(Shared[Following]):
 
         Raises :class:`~aioros1.MasterError`, and :class:`~aioros1.ClosedError`.
         """
+        is_in_doubt = self._is_in_doubt or bool(self._said)
         said, self._said = self._said, {}
         believed = self._believed
         with self._recording() as own:
@@ -163,11 +182,29 @@ class FollowedParam(Shared[Following]):
         if believed != self._believed:  # those notices may be newer than what was read
             self._said = said | self._said
             is_other = True
+        elif not is_in_doubt and self._is_premature(value):
+            is_other = True
         else:
             is_other = self._found(value, said, own)
         if self._said or own:
             self._rereading.soon()
         return is_other
+
+    def _is_premature(self, value: Any) -> bool:
+        """Whether ``value`` is another that will perhaps be announced in a moment.
+
+        Taken over now, it would be followed by older ones that are still to be announced.
+        """
+        if same(value, self.value):
+            self._others = 0
+            return False
+        is_quiet = self._others > 0 and self._others_since == self._believed
+        self._others += 1
+        self._others_since = self._believed
+        if not is_quiet and self._others < _MOST_OTHERS:
+            return True
+        self._others = 0
+        return False
 
     @contextmanager
     def _recording(self) -> Iterator[list[_Change]]:
@@ -196,6 +233,10 @@ class FollowedParam(Shared[Following]):
         is_all, self.value = same(value, self.value), value
         if not is_all:
             self._tell(self.name, value)
+            # Nobody said so, and who says so now is late. If the master no longer knows that we
+            # follow it, tell it again, with the next heartbeat.
+            self._doubt_notices()
+            self.registration.forget()
         return is_other or not is_all
 
     # at the master

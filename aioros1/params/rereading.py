@@ -19,7 +19,7 @@ __all__ = ["Rereading"]
 _GAP = 0.02
 """The least number of seconds between two readings, so that a burst of notices is one."""
 
-_MOST_BEATS = 8
+_MOST_BEATS = 4
 """Heartbeats between two readings of a value about which nothing is heard."""
 
 _SHARE = 50
@@ -83,9 +83,12 @@ class Rereading:
             while (left := max(self._due, self._not_before) - loop.time()) > 0:
                 await self._woken.wait(None if left == math.inf else left)
             began, self._due = loop.time(), math.inf
-            is_settled = False
+            rest = 0.0
             try:
-                is_settled = not await self._read()
+                if await self._read():
+                    self._interval = self._beat
+                else:
+                    rest = (loop.time() - began) * _SHARE if self._reads_idly else math.inf
                 self._is_refused = False
             except MasterUnreachable:
                 pass
@@ -93,9 +96,8 @@ class Rereading:
                 if not self._is_refused:
                     self._is_refused = True
                     self._context.log.warning("cannot read parameter %s: %s", self._name, error)
-            took = loop.time() - began
-            self._not_before = loop.time() + max(_GAP, took)
-            if not is_settled or self._reads_idly:
-                rest = max(self._interval, took * _SHARE) * random.uniform(0.9, 1.1)
-                self._interval = min(self._interval * 2, self._beat * _MOST_BEATS)
-                self._plan(loop.time() + rest)
+            now = loop.time()
+            self._not_before = now + max(_GAP, now - began)
+            # Nodes that were started together need not read together for ever.
+            self._plan(now + max(rest, self._interval * random.uniform(0.9, 1.1)))
+            self._interval = min(self._interval * 2, self._beat * _MOST_BEATS)

@@ -22,8 +22,11 @@ async def test_large_values_that_nobody_iterates_over_are_not_kept(pair):
             await setter.set_param("/k", f"{number} " + "x" * 500_000)
         await psub.wait_for(lambda value: value.startswith("44 "), timeout=30)
         assert psub.stats.dropped >= 45 - 34
-        rest = [await anext(psub) for _ in range(45 - psub.stats.dropped)]
-        assert rest[-1].value == psub.value
+        first = await anext(psub)
+        assert first.value[:3] not in ("0 x", "1 x")
+        async with asyncio.timeout(30):
+            while (await anext(psub)).value != psub.value:
+                pass
 
 
 async def test_the_cache_keeps_one_value_of_each_parameter(pair):

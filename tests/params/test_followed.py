@@ -56,6 +56,31 @@ async def test_a_notice_that_is_lost(make_node):
         await psub.wait_for(lambda value: value is None, timeout=30)
 
 
+async def test_a_subscription_that_the_master_has_lost(make_node):
+    """rosmaster ends it when a node answers an old notice while it does not follow the key."""
+    follower = await make_node("follower", heartbeat=0.05)
+    setter = await make_node("setter")
+    async with follower.subscribe_param("/k", default=None) as psub:
+        await follower.master.unsubscribe_param("/k", follower.uri)
+        await setter.set_param("/k", 1)
+        await psub.wait_for(lambda value: value == 1, timeout=30)
+        async with asyncio.timeout(30):
+            while not await follower.master.unsubscribe_param("/k", follower.uri):
+                await asyncio.sleep(0.01)
+
+
+async def test_notices_of_very_many_keys(pair):
+    """Whoever sends them, they are not all remembered."""
+    setter, follower = pair
+    async with follower.subscribe_param("/k", default=None) as psub:
+        liar = await setter.peer("/follower")
+        await follower.set_param("/k", {"a": 1})
+        for number in range(1500):
+            await liar.call("paramUpdate", f"/k/no{number}/", number)
+        await setter.set_param("/k/b", 2)
+        await psub.wait_for(lambda value: value == {"a": 1, "b": 2}, timeout=30)
+
+
 async def test_changes_by_oneself_at_the_same_time(make_node):
     """The order of their answers is not that in which the master made them."""
     node = await make_node("node", heartbeat=0.05)
