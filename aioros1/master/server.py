@@ -9,7 +9,7 @@ import random
 import uuid
 import warnings
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Any, Self
 
@@ -32,7 +32,7 @@ from aioros1.net.hosts import (
 from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
 from aioros1.wire.xmlrpc import decode_response, encode_response
-from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.client import SHORT_ANSWER, XmlRpcClient
 from aioros1.xmlrpc.server import Reply, XmlRpcServer
 
 __all__ = ["DEFAULT_PORT", "Master", "MasterStats"]
@@ -123,7 +123,9 @@ class Master:
             document = encode_response(value, what=f"parameter {key}")
             value = decode_response(document, max_values=limits.xmlrpc_values)
             self._parameters.set(resolve_from(key, "/"), value)
-        self._client = XmlRpcClient(timeouts=timeouts, limits=limits)
+        # It sends notifications only, the answers to which have a few words.
+        answers = replace(limits, xmlrpc_bytes=min(limits.xmlrpc_bytes, SHORT_ANSWER))
+        self._client = XmlRpcClient(timeouts=timeouts, limits=answers)
         self._notifier = Notifier(
             self._client,
             is_registered=self._registry.knows_api,

@@ -94,8 +94,10 @@ class HttpClient:
         self._none_open = Waiters()  # woken when the last connection has ended
         self._sweeper: asyncio.TimerHandle | None = None
 
-    async def post(self, server: Server, body: bytes) -> AnswerReader:
-        """Send ``body`` and return the answer. Raises
+    async def post(
+        self, server: Server, body: bytes, *, max_bytes: int | None = None
+    ) -> AnswerReader:
+        """Send ``body`` and return the answer, of at most ``max_bytes``. Raises
 
         - :class:`ConnectionError` if the server cannot be reached,
         - :class:`ConnectionResetError` if the connection is lost before the answer,
@@ -109,7 +111,7 @@ class HttpClient:
         pool.users += 1
         try:
             async with pool.slots:
-                return await self._post(pool, server, body)
+                return await self._post(pool, server, body, max_bytes or self._max_bytes)
         finally:
             pool.users -= 1
 
@@ -129,9 +131,9 @@ class HttpClient:
                 lambda: not self._open, timeout=CLOSING, what="connections did not close"
             )
 
-    async def _post(self, pool: _Pool, server: Server, body: bytes) -> AnswerReader:
+    async def _post(self, pool: _Pool, server: Server, body: bytes, max_bytes: int) -> AnswerReader:
         lost: ConnectionResetError | None = None
-        answer = AnswerReader(max_bytes=self._max_bytes)
+        answer = AnswerReader(max_bytes=max_bytes)
         connection = pool.take()
         if connection is not None:
             try:

@@ -7,19 +7,31 @@ URI has none. Some of their answers are not XML-RPC.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Iterator
 from threading import get_ident
 from typing import Any, TypeVar
 
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerError, PeerUnreachable
 from aioros1.net.http_client import HttpClient, server_at
 from aioros1.net.loop_state import LoopState, loop_state
+from aioros1.net.turns import Turn
 from aioros1.options import Limits, Timeouts
 from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
-from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault, decode_response, encode_call
+from aioros1.wire.xmlrpc import (
+    PIECE,
+    XmlRpcError,
+    XmlRpcFault,
+    call_pieces,
+    decode_response,
+    decoding_response,
+)
+from aioros1.wire.xmlrpc_scalars import brief
 
-__all__ = ["XmlRpcClient", "as_it_is", "call_triple"]
+__all__ = ["SHORT_ANSWER", "XmlRpcClient", "as_it_is", "call_triple"]
+
+SHORT_ANSWER = 64 << 10
+"""Bytes of an answer that has a few words, from a node that anybody may have registered."""
 
 T = TypeVar("T")
 
@@ -42,11 +54,15 @@ class XmlRpcClient:
         *params: Any,
         timeout: float | None = None,
         any_path: bool = False,
+        body: bytes | None = None,
+        max_bytes: int | None = None,
     ) -> Any:
         """Call ``method(*params)`` at ``uri`` and return the answer, whatever it is.
 
         Requests go to the path ``/RPC2`` or ``/``, whatever ``uri`` says, unless you pass
-        ``any_path``; see :func:`.server_at`.
+        ``any_path``; see :func:`.server_at`. ``body`` is what :meth:`encode` returned, to be
+        sent in place of ``params``. An answer has at most ``max_bytes``, if that is less than
+        ``limits.xmlrpc_bytes``.
 
         ``timeout`` limits the whole call, in seconds; the default is ``Timeouts.xmlrpc``,
         and ``math.inf`` means no limit. Raises
@@ -61,13 +77,15 @@ class XmlRpcClient:
         - :class:`~aioros1.ClosedError` after :meth:`close`,
         - :class:`RuntimeError` in another thread than the first call.
         """
-        body = encode_call(method, params, max_depth=self._limits.xmlrpc_depth)
+        if body is None:
+            body = await self.encode(method, *params)
         if self._closed:
             raise ClosedError("the XML-RPC client is closed")
-        if self._loop_state is None:
-            self._loop_state = loop_state()
-        if get_ident() != self._loop_state.thread_id:
-            self._loop_state.check_thread(method)
+        state = self._loop_state
+        if state is None:
+            state = self._loop_state = loop_state()
+        if get_ident() != state.thread_id:
+            state.check_thread(method)
         try:
             server = server_at(uri, any_path=any_path)
         except ValueError:
@@ -77,13 +95,14 @@ class XmlRpcClient:
         seconds = self._timeouts.xmlrpc if timeout is None else timeout
         try:
             async with self._deadlines.limit(None if seconds == math.inf else seconds, "no answer"):
-                answer = await self._http.post(server, body)
+                answer = await self._http.post(server, body, max_bytes=max_bytes)
             if answer.status != 200:
                 raise XmlRpcError(f"HTTP status {answer.status} {answer.reason}")
-            limits = self._limits
-            return decode_response(
-                answer.body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
-            )
+            depth, values = self._limits.xmlrpc_depth, self._limits.xmlrpc_values
+            if len(answer.body) <= PIECE:
+                return decode_response(answer.body, max_depth=depth, max_values=values)
+            steps = decoding_response((answer.body,), max_depth=depth, max_values=values)
+            return await Turn(state.turns).run(steps)
         except TimeoutError as error:
             if self._closed:
                 raise ConnectionAbortedError(f"{method} at {uri}: the client was closed") from None
@@ -95,6 +114,20 @@ class XmlRpcClient:
         except (HttpError, XmlRpcError) as error:
             raise XmlRpcError(f"{method} at {uri}: {error}") from None
 
+    async def encode(self, method: str, *params: Any) -> bytes:
+        """Make the document of a call, which :meth:`call` takes as its ``body``.
+
+        Large ones take long; others run meanwhile. Raises as :func:`.encode_call` does.
+        """
+        pieces = call_pieces(method, params, max_depth=self._limits.xmlrpc_depth)
+        document = next(pieces)
+        more = next(pieces, None)
+        if more is None:
+            return document
+        found = [document, more]
+        await Turn(loop_state().turns).run(_appending(found, pieces))
+        return b"".join(found)
+
     def close_idle(self) -> None:
         """Close the connections that are idle now, because they may all be dead."""
         self._http.close_idle()
@@ -105,6 +138,12 @@ class XmlRpcClient:
         self._deadlines.expire()
         await self._deadlines.wait_ended()
         await self._http.close()
+
+
+def _appending(found: list[bytes], pieces: Iterator[bytes]) -> Generator[None, None, None]:
+    for piece in pieces:
+        found.append(piece)
+        yield
 
 
 def as_it_is(value: Any) -> Any:
@@ -124,6 +163,7 @@ async def call_triple(
     read: Callable[[Any], T] = as_it_is,
     timeout: float | None = None,
     any_path: bool = False,
+    max_bytes: int | None = None,
 ) -> T:
     """Call a method and return what ``read`` makes of the value of its answer.
 
@@ -132,7 +172,9 @@ async def call_triple(
     ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so.
     """
     try:
-        answer = await client.call(uri, method, *params, timeout=timeout, any_path=any_path)
+        answer = await client.call(
+            uri, method, *params, timeout=timeout, any_path=any_path, max_bytes=max_bytes
+        )
     except XmlRpcFault as fault:
         what = f"{method} at {uri}: {fault.text}"
         raise refused(fault.code, what, is_refusal=False) from fault
@@ -151,10 +193,10 @@ async def call_triple(
     elif bare:
         value = answer
     else:
-        what = f"{method} at {uri}: expected [code, status, value], got {answer!r:.200}"
+        what = f"{method} at {uri}: expected [code, status, value], got {brief(answer)}"
         raise refused(-1, what, is_refusal=False)
     try:
         return read(value)
     except (TypeError, ValueError, LookupError, AttributeError) as error:
-        what = f"{method} at {uri}: cannot read {value!r:.200}: {error}"
+        what = f"{method} at {uri}: cannot read {brief(value)}: {error}"
         raise refused(-1, what, is_refusal=False) from error
