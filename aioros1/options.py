@@ -81,6 +81,11 @@ class Limits:
     header_fields: int = 256
     """Fields of a connection header. ROS 1 programs send about eight."""
 
+    kept_header_bytes: int = 32 << 20
+    """Bytes of connection headers that a node keeps in sum, while their connections last.
+    Beyond that it keeps only the names and flags that ROS 1 defines, so that
+    ``ConnectionInfo.header`` lacks the rest."""
+
     message_bytes: int = 1_000_000_000
     """Bytes of one message or service request; the same limit as in roscpp."""
 
@@ -92,6 +97,10 @@ class Limits:
     """Connections from one host, separately for TCPROS and XML-RPC. The default is half of
     ``connections``, so that no single host can shut out all others. A graph of hundreds of
     nodes on one machine stays far below it."""
+
+    publishers: int = 10_000
+    """Publishers that a node follows, in sum over its topics. Anybody can send a node a list
+    of them; further ones wait until others have gone."""
 
     xmlrpc_connections: int = 10_000
     """XML-RPC connections open at a time. A master has one or two with each node, and keeps

@@ -34,7 +34,7 @@ _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, 30.0
 # subscribers; notifying all at once would hold up the requests that come meanwhile.
 _PER_TURN = 2
 
-# Characters or items of a value that is encoded once for all nodes.
+# Characters of a text that is encoded once for all nodes.
 _LARGE = 4096
 
 _Slot = tuple[type, str, str]
@@ -180,7 +180,9 @@ class Notifier:
 
 
 def _is_large(value: Any) -> bool:
-    return isinstance(value, str | bytes | dict | list) and len(value) > _LARGE
+    if isinstance(value, dict | list):
+        return bool(value)  # it would take long to find out
+    return isinstance(value, str | bytes) and len(value) > _LARGE
 
 
 def _slot(message: Notification) -> _Slot:

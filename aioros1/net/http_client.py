@@ -20,7 +20,7 @@ from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
 from aioros1.wire.http import AnswerReader, HttpError
 
-__all__ = ["HttpClient", "Server", "server_at"]
+__all__ = ["MAX_URI", "HttpClient", "Server", "server_at"]
 
 PER_SERVER = 8
 """The most connections to one server. Enough for a node that registers many roles at once,

@@ -17,6 +17,7 @@ from aioros1.params.params import Params
 from aioros1.services.services import Services
 from aioros1.topics.topics import Topics
 from aioros1.wire.xmlrpc import carriable
+from aioros1.wire.xmlrpc_scalars import brief
 from aioros1.xmlrpc.server import Reply
 
 if TYPE_CHECKING:
@@ -124,14 +125,15 @@ class SlaveApi:
         if not isinstance(reason, str):
             return _wrong("msg", reason, "a string")
         who = caller_id if isinstance(caller_id, str) else "unknown caller"
-        return Reply([1, "shutdown", 0], after=lambda: self._shut_down(f"[{who}] {reason}"))
+        why = f"[{who:.200}] {reason:.1000}"
+        return Reply([1, "shutdown", 0], after=lambda: self._shut_down(why))
 
     def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
         if not isinstance(key, str) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
         # The master sends the key with a trailing slash, tools without.
         if not self._params.updated(canonicalize(key), value):
-            return [-1, f"not subscribed to parameter {key}", 0]
+            return [-1, f"not subscribed to parameter {key:.200}", 0]
         return [1, "", 0]
 
     def publisher_update(self, caller_id: Any, topic: Any, publishers: Any) -> Triple:
@@ -150,7 +152,7 @@ class SlaveApi:
         if not isinstance(protocols, list) or not protocols:
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
         if self._topics.published(canonicalize(topic)) is None:
-            return [-1, f"{self._context.name} does not publish {topic}", []]
+            return [-1, f"{self._context.name} does not publish {topic:.200}", []]
         # Skip other protocols, whatever they look like: the caller may well support this
         # one too.
         readable = [each for each in protocols if _is_protocol(each)]
@@ -178,7 +180,7 @@ def _bus_info(info: ConnectionInfo) -> list[Any]:
 
 
 def _wrong(parameter: str, value: object, expected: str) -> Triple:
-    return [-1, f"{parameter} must be {expected}, got {value!r:.100}", 0]
+    return [-1, f"{parameter} must be {expected}, got {brief(value)}", 0]
 
 
 def _is_protocol(value: object) -> bool:
