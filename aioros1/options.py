@@ -131,6 +131,18 @@ class Limits:
     """Seconds for one whole XML-RPC request to arrive. The default is enough for the largest
     request over a slow network."""
 
+    parameter_bytes: int = 256 << 20
+    """Bytes of all parameters of a master, about as many as their XML has. A parameter beyond
+    that cannot be set."""
+
+    parameter_values: int = 500_000
+    """Values of all parameters of a master, namespaces included."""
+
+    registrations: int = 50_000
+    """Publishers, subscribers, services and followed parameters that a master keeps, and the
+    types of topics, which it never forgets. Further ones are refused. A graph of a thousand
+    nodes has some ten thousand."""
+
     requests_per_second: float | None = None
     """XML-RPC requests answered per host and second, on average. Each call in a
     ``system.multicall`` counts as one. Further requests wait and are not refused, since a

@@ -116,7 +116,11 @@ class Master:
         self._run_id = _new_run_id()
         self._registry = Registry()
         # The triple around the value takes one level of an answer.
-        self._parameters = ParameterTree(max_depth=limits.xmlrpc_depth - 1)
+        self._parameters = ParameterTree(
+            max_depth=limits.xmlrpc_depth - 1,
+            max_bytes=limits.parameter_bytes,
+            max_values=limits.parameter_values,
+        )
         given = {"/run_id": self._run_id, **_ROSCORE_PARAMS, **(params or {})}
         for key, value in given.items():
             # Encode and decode: this checks and copies it, with the types a node would send.
@@ -136,6 +140,7 @@ class Master:
             self._parameters,
             notify=self._notifier.send,
             shutdown=self._answer_shutdown,
+            max_registrations=limits.registrations,
         )
         self._server = XmlRpcServer(self._api.methods(), limits=limits, allow=self._allow, log=_LOG)
         # Everything that ends with the master, in reverse order. start() adds the rest, such

@@ -101,6 +101,8 @@ class ServiceLink(asyncio.Protocol):
             receiver.set_result(frame)
         elif (result := self.at_once(frame)) is not None:
             receiver.set_result(result)
+        elif self._share is not None and self._share.size and self._writable is None:
+            self._share.close()  # it was answered
 
     def eof_received(self) -> bool:
         self._end()
