@@ -86,6 +86,11 @@ class Limits:
     header_fields: int = 256
     """Fields of a connection header. ROS 1 programs send about eight."""
 
+    kept_header_bytes: int = 32 << 20
+    """Bytes of connection headers that a node keeps in sum, while their connections last.
+    Beyond that it keeps only the names and flags that ROS 1 defines, so that
+    ``ConnectionInfo.header`` lacks the rest."""
+
     message_bytes: int = 1_000_000_000
     """Bytes of one message or service request; the same limit as in roscpp."""
 
@@ -97,6 +102,10 @@ class Limits:
     """Connections from one host, separately for TCPROS and XML-RPC. The default is half of
     ``connections``, so that no single host can shut out all others. A graph of hundreds of
     nodes on one machine stays far below it."""
+
+    publishers: int = 10_000
+    """Publishers that a node follows, in sum over its topics. Anybody can send a node a list
+    of them; further ones wait until others have gone."""
 
     xmlrpc_connections: int = 10_000
     """XML-RPC connections open at a time. A master has one or two with each node, and keeps
@@ -126,6 +135,18 @@ class Limits:
     xmlrpc_timeout: float = 30.0
     """Seconds for one whole XML-RPC request to arrive. The default is enough for the largest
     request over a slow network."""
+
+    parameter_bytes: int = 256 << 20
+    """Bytes of all parameters of a master, about as many as their XML has. A parameter beyond
+    that cannot be set."""
+
+    parameter_values: int = 500_000
+    """Values of all parameters of a master, namespaces included."""
+
+    registrations: int = 50_000
+    """Publishers, subscribers, services and followed parameters that a master keeps, and the
+    types of topics, which it never forgets. Further ones are refused. A graph of a thousand
+    nodes has some ten thousand."""
 
     requests_per_second: float | None = None
     """XML-RPC requests answered per host and second, on average. Each call in a

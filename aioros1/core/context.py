@@ -15,10 +15,12 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 from aioros1 import names
 from aioros1.core.connections import Connections
 from aioros1.core.contact import Contact
+from aioros1.core.dialling import Dialling
 from aioros1.core.user_errors import described, is_end, leave_loop, reportable
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, Event
 from aioros1.log.library_log import LibraryLog
+from aioros1.net.budget import Budget
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -101,7 +103,11 @@ class Context:
         """Calls the master without a timeout. Waiting for a registration has a timeout; the
         request itself has none."""
         self.registrations = registrations
-        self.connections = Connections(events.publish)
+        self.connections = Connections(events.publish, options.limits.kept_header_bytes)
+        self.budget = Budget(options.limits.bytes_in_flight)
+        """What arrives over TCPROS and is not complete, or waits to be read by others."""
+        self.dialling = Dialling(options.limits.publishers)
+        """The publishers that the node follows."""
         self.members: dict[Member, Callable[[], None]] = {}
         """Everything that is open, in opening order, with the function that drops it at once.
         A member removes itself when it closes."""

@@ -22,6 +22,7 @@ from aioros1.log.library_log import LibraryLog
 from aioros1.master.parameters import ParamUpdate
 from aioros1.master.registry import Notification, PublisherUpdate, Shutdown
 from aioros1.quoting import printable
+from aioros1.waiting import Mutex
 from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
 from aioros1.xmlrpc.client import HttpStatusError, XmlRpcClient
 
@@ -47,6 +48,9 @@ _TRY_AGAIN = (408, 429, 500, 502, 503, 504)
 # Nodes to start notifying in one iteration of the event loop. A topic may have hundreds of
 # subscribers; notifying all at once would hold up the requests that come meanwhile.
 _PER_TURN = 2
+
+# Characters of a text that is encoded once for all nodes.
+_LARGE = 4096
 
 _Slot = tuple[type, str, str]
 """The subject of a message: its kind, the topic or key, and the node for parameters."""
@@ -77,6 +81,8 @@ class Notifier:
         self._waiting: deque[str] = deque()  # nodes with a queue but no task yet
         self._starter: asyncio.Task[None] | None = None
         self._closed = False
+        self._encoding = Mutex()
+        self._last: tuple[ParamUpdate, bytes] | None = None
 
     def send(self, notifications: Iterable[Notification]) -> None:
         """Queue messages; never waits."""
@@ -166,6 +172,8 @@ class Notifier:
         finally:
             del self._tasks[api]
             del self._queues[api]
+            if not self._tasks:
+                self._last = None
 
     async def _rest(self, api: str, seconds: float) -> None:
         """Wait before the next try, or until there is something new to tell."""
@@ -187,21 +195,44 @@ class Notifier:
 
     async def _tell(self, message: Notification) -> None:
         answer: Any
+        call = self._client.call
         if isinstance(message, PublisherUpdate):
-            answer = await self._client.call(
+            answer = await call(
                 message.api, "publisherUpdate", _CALLER_ID, message.topic, message.publishers
             )
         elif isinstance(message, ParamUpdate):
-            answer = await self._client.call(
-                message.api, "paramUpdate", _CALLER_ID, message.key, message.value
-            )
+            params = _CALLER_ID, message.key, message.value
+            if _is_large(message.value):
+                answer = await call(message.api, "paramUpdate", body=await self._encode(message))
+            else:
+                answer = await call(message.api, "paramUpdate", *params)
             if isinstance(answer, list) and answer[:1] == [-1]:
                 self._on_unwanted(message)
         elif not self._is_wanted(message):
             return  # another node has come to that address meanwhile
         else:
-            answer = await self._client.call(message.api, "shutdown", _CALLER_ID, message.reason)
-        _LOG.debug("%s answered %s", message.api, answer)
+            answer = await call(message.api, "shutdown", _CALLER_ID, message.reason)
+        _LOG.debug("%s answered %.200s", message.api, answer)
+
+    async def _encode(self, message: ParamUpdate) -> bytes:
+        """The request that tells of ``message``; the same bytes for all nodes that it is for.
+
+        A large parameter may have hundreds of followers that take their time.
+        """
+        async with self._encoding:
+            if self._last is not None:
+                last, body = self._last
+                if last.value is message.value and last.key == message.key:
+                    return body
+            body = await self._client.encode("paramUpdate", _CALLER_ID, message.key, message.value)
+            self._last = message, body
+            return body
+
+
+def _is_large(value: Any) -> bool:
+    if isinstance(value, dict | list):
+        return bool(value)  # it would take long to find out
+    return isinstance(value, str | bytes) and len(value) > _LARGE
 
 
 def _level(error: Exception) -> int:

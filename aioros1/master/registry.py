@@ -53,6 +53,12 @@ class _Node:
     params: set[str] = field(default_factory=set)
 
     @property
+    def count(self) -> int:
+        return (
+            len(self.publications) + len(self.subscriptions) + len(self.services) + len(self.params)
+        )
+
+    @property
     def is_empty(self) -> bool:
         return not (self.publications or self.subscriptions or self.services or self.params)
 
@@ -197,6 +203,18 @@ class Registry:
                 [[topic, list(nodes)] for topic, nodes in self._subscribers.items()],
                 [[service, [provider.caller_id]] for service, provider in self._services.items()],
             ],
+        )
+
+    def count(self) -> int:
+        """How many registrations there are, the types of topics included."""
+        return len(self._types) + sum(node.count for node in self._nodes.values())
+
+    def has_registered(self, caller_id: str, name: str) -> bool:
+        """Whether that node has registered anything under ``name``, or follows it."""
+        node = self._nodes.get(caller_id)
+        return node is not None and any(
+            name in kind
+            for kind in (node.publications, node.subscriptions, node.services, node.params)
         )
 
     def knows_api(self, api: str) -> bool:

@@ -9,7 +9,7 @@ import random
 import uuid
 import warnings
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Any, Self
 
@@ -35,7 +35,7 @@ from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
 from aioros1.quoting import printable
 from aioros1.wire.xmlrpc import decode_response, encode_response
-from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.client import SHORT_ANSWER, XmlRpcClient
 from aioros1.xmlrpc.server import Reply, XmlRpcServer
 
 __all__ = ["DEFAULT_PORT", "Master", "MasterStats"]
@@ -120,14 +120,20 @@ class Master:
         self._run_id = _new_run_id()
         self._registry = Registry()
         # The triple around the value takes one level of an answer.
-        self._parameters = ParameterTree(max_depth=limits.xmlrpc_depth - 1)
+        self._parameters = ParameterTree(
+            max_depth=limits.xmlrpc_depth - 1,
+            max_bytes=limits.parameter_bytes,
+            max_values=limits.parameter_values,
+        )
         given = {"/run_id": self._run_id, **_ROSCORE_PARAMS, **(params or {})}
         for key, value in given.items():
             # Encode and decode: this checks and copies it, with the types a node would send.
             document = encode_response(value, what=f"parameter {key}")
             value = decode_response(document, max_values=limits.xmlrpc_values)
             self._parameters.set(resolve_from(key, "/"), value)
-        self._client = XmlRpcClient(timeouts=timeouts, limits=limits)
+        # It sends notifications only, the answers to which have a few words.
+        answers = replace(limits, xmlrpc_bytes=min(limits.xmlrpc_bytes, SHORT_ANSWER))
+        self._client = XmlRpcClient(timeouts=timeouts, limits=answers)
         self._notifier = Notifier(
             self._client,
             is_wanted=self._registry.is_wanted,
@@ -138,6 +144,7 @@ class Master:
             self._parameters,
             notify=self._notifier.send,
             shutdown=self._answer_shutdown,
+            max_registrations=limits.registrations,
         )
         self._server = XmlRpcServer(self._api.methods(), limits=limits, allow=self._allow, log=_LOG)
         # Everything that ends with the master, in reverse order. start() adds the rest, such

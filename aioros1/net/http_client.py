@@ -21,7 +21,7 @@ from aioros1.waiting import Waiters
 from aioros1.wire.carriage_returns import with_references
 from aioros1.wire.http import AnswerReader, HttpError
 
-__all__ = ["HttpClient", "Server", "server_at"]
+__all__ = ["MAX_URI", "HttpClient", "Server", "server_at"]
 
 PER_SERVER = 8
 """The most connections to one server. Enough for a node that registers many roles at once,
@@ -95,9 +95,11 @@ class HttpClient:
         self._none_open = Waiters()  # woken when the last connection has ended
         self._sweeper: asyncio.TimerHandle | None = None
 
-    async def post(self, server: Server, body: bytes, *, counts: bool = True) -> AnswerReader:
-        """Send ``body`` and return the answer. Unless it ``counts``, the request gets a
-        connection even if PER_SERVER requests are in progress. Raises
+    async def post(
+        self, server: Server, body: bytes, *, counts: bool = True, max_bytes: int | None = None
+    ) -> AnswerReader:
+        """Send ``body`` and return the answer, of at most ``max_bytes``. Unless it ``counts``,
+        the request gets a connection even if PER_SERVER requests are in progress. Raises
 
         - :class:`ConnectionError` if the server cannot be reached,
         - :class:`ConnectionResetError` if the connection is lost before the answer,
@@ -111,7 +113,7 @@ class HttpClient:
         pool.users += 1
         try:
             async with pool.slots if counts else contextlib.nullcontext():
-                answer = await self._post(pool, server, body)
+                answer = await self._post(pool, server, body, max_bytes or self._max_bytes)
             pool.is_python = b"Python/" in answer.server
             return answer
         finally:
@@ -139,11 +141,11 @@ class HttpClient:
                 lambda: not self._open, timeout=CLOSING, what="connections did not close"
             )
 
-    async def _post(self, pool: _Pool, server: Server, body: bytes) -> AnswerReader:
+    async def _post(self, pool: _Pool, server: Server, body: bytes, max_bytes: int) -> AnswerReader:
         lost: ConnectionResetError | None = None
         if pool.is_python:
             body = with_references(body)
-        answer = AnswerReader(max_bytes=self._max_bytes)
+        answer = AnswerReader(max_bytes=max_bytes)
         connection = pool.take()
         if connection is not None:
             try:

@@ -18,6 +18,7 @@ from aioros1.errors import ClosedError
 from aioros1.net.accepting import ListeningSocket
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
+from aioros1.net.budget import Share
 from aioros1.net.connecting import connect as connect_tcp
 from aioros1.net.connecting import reason_of
 from aioros1.net.ending import shut_down
@@ -101,16 +102,25 @@ class Stream:
     def transport(self) -> asyncio.Transport:
         return cast("asyncio.Transport", self.writer.transport)
 
-    async def receive_header(self, side: Side, *, timeout: float) -> None:
-        """Read until ``side`` has its header, and not a byte more.
+    async def receive_header(
+        self, side: Side, *, timeout: float, share: Share | None = None
+    ) -> None:
+        """Read until ``side`` has its header, and not a byte more. Meanwhile ``share`` holds
+        what has come.
 
         Raises :class:`~aioros1.HandshakeError`, :class:`TimeoutError`, and
         :class:`ConnectionError` when the connection ends before.
         """
         try:
+            size = 0
             async with asyncio.timeout(timeout):
                 while True:
                     data = await self.reader.read(side.missing)
+                    if share is not None:
+                        size += len(data)
+                        share.grow_to(size)
+                        if share.is_cut:
+                            raise ConnectionResetError("all connections together held too much")
                     if not data:
                         raise ConnectionResetError("the other side closed it")
                     if side.receive_data(data):

@@ -90,9 +90,9 @@ class Turn:
 
     __slots__ = ("_begin", "_is_long", "_turns")
 
-    def __init__(self, turns: Turns, begin: float) -> None:
+    def __init__(self, turns: Turns, begin: float | None = None) -> None:
         self._turns = turns
-        self._begin = begin
+        self._begin = perf_counter() if begin is None else begin
         self._is_long = False
 
     @property

@@ -18,7 +18,9 @@ from aioros1.params.params import Params
 from aioros1.quoting import printable
 from aioros1.services.services import Services
 from aioros1.topics.topics import Topics
+from aioros1.wire.handshake import MAX_NAME
 from aioros1.wire.xmlrpc import carriable
+from aioros1.wire.xmlrpc_scalars import brief
 from aioros1.xmlrpc.server import Reply
 
 if TYPE_CHECKING:
@@ -142,7 +144,7 @@ class SlaveApi:
         return Reply([1, "shutdown", 0], after=lambda: self._shut_down(why))
 
     def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
-        if not isinstance(key, str) or not key.startswith("/"):
+        if not _is_name(key) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
         # The master sends the key with a trailing slash, tools without.
         if not self._params.announced(canonicalize(key), value):
@@ -150,7 +152,7 @@ class SlaveApi:
         return [1, "", 0]
 
     def publisher_update(self, caller_id: Any, topic: Any, publishers: Any) -> Triple:
-        if not isinstance(topic, str) or not topic:
+        if not _is_name(topic):
             return _wrong("topic", topic, "the name of a topic")
         if not isinstance(publishers, list) or not all(map(_is_http_uri, publishers)):
             return _wrong("publishers", publishers, "a list of http:// URIs")
@@ -160,7 +162,7 @@ class SlaveApi:
         return [1, "", 0]
 
     def request_topic(self, caller_id: Any, topic: Any, protocols: Any) -> Triple:
-        if not isinstance(topic, str) or not topic:
+        if not _is_name(topic):
             return _wrong("topic", topic, "the name of a topic")
         if not isinstance(protocols, list) or not protocols:
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
@@ -193,7 +195,11 @@ def _bus_info(info: ConnectionInfo) -> list[Any]:
 
 
 def _wrong(parameter: str, value: object, expected: str) -> Triple:
-    return [-1, f"{parameter} must be {expected}, got {printable(repr(value), 100)}", 0]
+    return [-1, f"{parameter} must be {expected}, got {printable(brief(value), 100)}", 0]
+
+
+def _is_name(value: object) -> bool:
+    return isinstance(value, str) and 0 < len(value) <= MAX_NAME
 
 
 def _is_protocol(value: object) -> bool:

@@ -115,10 +115,12 @@ class Provision(Shared[Providing]):
             max_bytes=context.limits.message_bytes,
             patience=timeouts.handshake,
             stall=timeouts.stall,
+            budget=context.budget,
         )
         rest = await take_over(stream, link)
         if rest:
             link.data_received(rest)
+        server.header = context.connections.kept(server.header)
         info = connection_info(stream, self.name, "b", server.caller_id, server.header)
         self._links[link] = info
         context.connections.add(self.kind, link, info)

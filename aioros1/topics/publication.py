@@ -239,6 +239,7 @@ class Publication(Shared[Publishing]):
                 "%s subscribes to %s as %s, but it is %s; accepted, as their md5sums are the same",
                 *(server.caller_id, offer.topic, theirs, offer.type),
             )
+        server.header = context.connections.kept(server.header)
         info = connection_info(stream, self.name, "o", server.caller_id, server.header)
         link = OutgoingLink(stream, info, self, stall=context.timeouts.stall)
         stream.writer.write(answer)

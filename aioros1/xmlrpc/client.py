@@ -7,20 +7,30 @@ URI has none. Some of their answers are not XML-RPC.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Iterator
 from threading import get_ident
 from typing import Any, TypeVar
 
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerError, PeerUnreachable
 from aioros1.net.http_client import HttpClient, server_at
 from aioros1.net.loop_state import LoopState, loop_state
+from aioros1.net.turns import Turn
 from aioros1.options import Limits, Timeouts
 from aioros1.quoting import printable
 from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
-from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault, decode_response, encode_call
+from aioros1.wire.xmlrpc import (
+    PIECE,
+    XmlRpcError,
+    XmlRpcFault,
+    call_pieces,
+    decode_response,
+    decoding_response,
+)
+from aioros1.wire.xmlrpc_scalars import brief
 
 __all__ = [
+    "SHORT_ANSWER",
     "HttpStatusError",
     "XmlRpcClient",
     "as_it_is",
@@ -28,6 +38,9 @@ __all__ = [
     "is_answer",
     "is_judgement",
 ]
+
+SHORT_ANSWER = 64 << 10
+"""Bytes of an answer that has a few words, from a node that anybody may have registered."""
 
 T = TypeVar("T")
 
@@ -58,11 +71,15 @@ class XmlRpcClient:
         *params: Any,
         timeout: float | None = None,
         any_path: bool = False,
+        body: bytes | None = None,
+        max_bytes: int | None = None,
     ) -> Any:
         """Call ``method(*params)`` at ``uri`` and return the answer, whatever it is.
 
         Requests go to the path ``/RPC2`` or ``/``, whatever ``uri`` says, unless you pass
-        ``any_path``; see :func:`.server_at`.
+        ``any_path``; see :func:`.server_at`. ``body`` is what :meth:`encode` returned, to be
+        sent in place of ``params``. An answer has at most ``max_bytes``, if that is less than
+        ``limits.xmlrpc_bytes``.
 
         ``timeout`` limits the whole call, in seconds; the default is ``Timeouts.xmlrpc``,
         and ``math.inf`` means no limit. Calls without a limit do not count in the number of
@@ -80,13 +97,15 @@ class XmlRpcClient:
         - :class:`~aioros1.ClosedError` after :meth:`close`,
         - :class:`RuntimeError` in another thread than the first call.
         """
-        body = encode_call(method, params, max_depth=self._limits.xmlrpc_depth)
+        if body is None:
+            body = await self.encode(method, *params)
         if self._closed:
             raise ClosedError("the XML-RPC client is closed")
-        if self._loop_state is None:
-            self._loop_state = loop_state()
-        if get_ident() != self._loop_state.thread_id:
-            self._loop_state.check_thread(method)
+        state = self._loop_state
+        if state is None:
+            state = self._loop_state = loop_state()
+        if get_ident() != state.thread_id:
+            state.check_thread(method)
         try:
             server = server_at(uri, any_path=any_path)
         except ValueError:
@@ -97,14 +116,17 @@ class XmlRpcClient:
         limit = None if seconds == math.inf else seconds
         try:
             async with self._deadlines.limit(limit, "no answer"):
-                answer = await self._http.post(server, body, counts=limit is not None)
+                answer = await self._http.post(
+                    server, body, counts=limit is not None, max_bytes=max_bytes
+                )
             if answer.status != 200:
                 what = f"HTTP status {answer.status} {answer.reason}"
                 raise HttpStatusError(what, answer.status)
-            limits = self._limits
-            return decode_response(
-                answer.body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
-            )
+            depth, values = self._limits.xmlrpc_depth, self._limits.xmlrpc_values
+            if len(answer.body) <= PIECE:
+                return decode_response(answer.body, max_depth=depth, max_values=values)
+            steps = decoding_response((answer.body,), max_depth=depth, max_values=values)
+            return await Turn(state.turns).run(steps)
         except TimeoutError as error:
             if self._closed:
                 raise ConnectionAbortedError(
@@ -132,6 +154,20 @@ class XmlRpcClient:
         except ValueError:
             return 0
 
+    async def encode(self, method: str, *params: Any) -> bytes:
+        """Make the document of a call, which :meth:`call` takes as its ``body``.
+
+        Large ones take long; others run meanwhile. Raises as :func:`.encode_call` does.
+        """
+        pieces = call_pieces(method, params, max_depth=self._limits.xmlrpc_depth)
+        document = next(pieces)
+        more = next(pieces, None)
+        if more is None:
+            return document
+        found = [document, more]
+        await Turn(loop_state().turns).run(_appending(found, pieces))
+        return b"".join(found)
+
     def close_idle(self) -> None:
         """Close the connections that are idle now, because they may all be dead."""
         self._http.close_idle()
@@ -153,6 +189,12 @@ def is_answer(error: MasterError | PeerError) -> bool:
 def is_judgement(error: MasterError | PeerError) -> bool:
     """Whether the other side has judged the request: it refused, or raised a fault."""
     return error.is_refusal or isinstance(error.__context__, XmlRpcFault)
+
+
+def _appending(found: list[bytes], pieces: Iterator[bytes]) -> Generator[None, None, None]:
+    for piece in pieces:
+        found.append(piece)
+        yield
 
 
 def as_it_is(value: Any) -> Any:
@@ -177,6 +219,7 @@ async def call_triple(
     read: Callable[[Any], T] = as_it_is,
     timeout: float | None = None,
     any_path: bool = False,
+    max_bytes: int | None = None,
 ) -> T:
     """Call a method and return what ``read`` makes of the value of its answer.
 
@@ -188,7 +231,9 @@ async def call_triple(
     """
     place = _place(method, uri)
     try:
-        answer = await client.call(uri, method, *params, timeout=timeout, any_path=any_path)
+        answer = await client.call(
+            uri, method, *params, timeout=timeout, any_path=any_path, max_bytes=max_bytes
+        )
     except XmlRpcFault as fault:
         what = f"{place}: {printable(fault.text)}"
         raise refused(fault.code, what, is_refusal=False) from None
@@ -217,4 +262,4 @@ async def call_triple(
 
 
 def _shown(answer: Any) -> str:
-    return printable(repr(answer), 200)
+    return printable(brief(answer), 200)
