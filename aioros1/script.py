@@ -72,7 +72,7 @@ def run(
     script = _Script(main, node)
     with _log_file(node):
         _run(script, loop_factory)
-    return script.outcome()
+        return script.outcome()
 
 
 def _check_place() -> None:
