@@ -35,6 +35,9 @@ _LATE_REQUESTS = 60.0
 
 _LONGEST_PAUSE = 600.0
 
+_TYPICAL = 0.02
+"""Seconds that a comparison takes, until it is known better."""
+
 
 @dataclass
 class Found:
@@ -58,7 +61,7 @@ class RollCall:
         self._context = context
         self._next = 0.0  # when to compare, by the loop's time
         self._once_more: list[float] = []  # when to compare as well
-        self._took = float("inf")  # seconds that a comparison takes
+        self._took = _TYPICAL  # seconds that a comparison takes
         self._absences = _Absences()
         self._is_replaced = False
 

@@ -9,6 +9,7 @@ from soak.scenarios import (
     lossless,
     many_nodes,
     master_restarts,
+    registrations,
     stalled_peers,
     two_loops,
 )
@@ -17,6 +18,7 @@ __all__ = ["SCENARIOS"]
 
 MODULES = (
     master_restarts,
+    registrations,
     cut_connections,
     lossless,
     many_nodes,
