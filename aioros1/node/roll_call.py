@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 
 from aioros1.core.context import Context
 from aioros1.core.registration import Registration
-from aioros1.errors import MasterError
+from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.xmlrpc.client import is_judgement
 from aioros1.xmlrpc.master_proxy import SystemState
 
@@ -101,10 +101,13 @@ class RollCall:
         loop = asyncio.get_running_loop()
         try:
             state = await context.master.get_system_state()
+        except MasterUnreachable:
+            self._next = now + (loop.time() - now) / _SHARE
+            raise
         except MasterError as error:
-            if not is_judgement(error):
-                raise
-            self._next = now + _LONGEST_PAUSE  # a master that cannot list
+            # A master that cannot list, or one whose list is too large to be read.
+            context.log.debug("registrations cannot be compared: %s", error)
+            self._next = now + _LONGEST_PAUSE
             return Found()
         # A single slow answer says little about the next ones.
         self._took = min(loop.time() - now, 2 * self._took)
