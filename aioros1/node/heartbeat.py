@@ -32,6 +32,7 @@ class Heartbeat:
         self._identity: tuple[int, str] | None = None
         self._is_lost = False
         self._is_stale = False
+        self._is_first = False  # the next master to answer is the first of this node
         self._is_stopped = False
         self.refusal: MasterError | None = None
         """The error of :meth:`greet`, if it failed."""
@@ -52,6 +53,7 @@ class Heartbeat:
         except MasterError as error:
             self.refusal = error
             return False
+        self._context.contact.reached()
         return True
 
     async def run(self, period: float) -> None:
@@ -68,9 +70,10 @@ class Heartbeat:
             if not self._is_lost and not self._is_stopped:
                 self._is_lost = True
                 if self._identity is None:
-                    return  # there was none that could be lost
+                    self._is_first = True  # there was none that could be lost
+                    return
                 uri = context.master.uri
-                reason = error.status if isinstance(error, MasterError) else str(error)
+                reason = error.in_short if isinstance(error, MasterError) else str(error)
                 context.log.warning("lost the master at %s: %s", uri, reason)
                 context.emit(MasterLost(uri, reason))
             return
@@ -88,7 +91,10 @@ class Heartbeat:
         # Also after an outage of the same master, which may have missed registrations
         # sent meanwhile.
         self._is_stale = not await self._register_again()
-        if known is None or self._is_stale:
+        if self._is_stale:
+            return
+        is_first, self._is_first = self._is_first or known is None, False
+        if is_first:
             return
         uri = context.master.uri
         context.log.warning("registered again at the master at %s", uri)
