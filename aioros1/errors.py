@@ -170,6 +170,11 @@ class MasterError(RosError):
         self.is_refusal = is_refusal
 
     def __str__(self) -> str:
+        return self.in_short
+
+    @property
+    def in_short(self) -> str:
+        """What went wrong, without advice."""
         return f"{self.status} (code {self.code})"
 
 
@@ -192,12 +197,17 @@ class MasterUnreachable(MasterError, ConnectionError):
     def __str__(self) -> str:
         return f"{self.status}; {self.advice}" if self.advice else self.status
 
+    @property
+    def in_short(self) -> str:
+        return self.status
+
 
 @public
 class NodeNotFound(MasterError, LookupError):
     """The master knows no node of that name."""
 
-    def __str__(self) -> str:
+    @property
+    def in_short(self) -> str:
         return self.status
 
 

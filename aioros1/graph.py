@@ -226,7 +226,7 @@ class _Watch:
             is_away = isinstance(error, MasterUnreachable) or self._has_seen
             if error.is_refusal or not is_away:
                 raise
-            self.obstacle = error.status
+            self.obstacle = error.in_short
             return None
         self._has_seen = True
         self.obstacle = ""

@@ -53,8 +53,8 @@ class Contact:
             try:
                 answer = await ask()
             except MasterUnreachable as error:
-                self._say(f"waiting for a master: {error.status}; {_ADVICE}")
-                self._missing = error.status
+                self._say(f"waiting for a master: {error.in_short}; {_ADVICE}")
+                self._missing = error.in_short
             else:
                 self.reached()
                 return answer

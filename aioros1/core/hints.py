@@ -87,7 +87,7 @@ class Hint(Obstacle):
         try:
             state = await self._context.master.get_system_state()
         except MasterError as error:
-            self._found = error.status
+            self._found = error.in_short
             return
         known: Mapping[str, Sequence[str]] = getattr(state, self._kind)
         if nodes := known.get(self._name):

@@ -44,6 +44,7 @@ class Heartbeat:
         self._losses = 0  # of connections to the master
         self._is_lost = False
         self._is_stale = False  # the master lacks everything, perhaps
+        self._is_first = False  # the next master to answer is the first of this node
         self._is_stopped = False
         self._renewals = 0
         self._complaint = ""
@@ -66,6 +67,7 @@ class Heartbeat:
         except MasterError as error:
             self.refusal = error
             return False
+        self._context.contact.reached()
         return True
 
     async def run(self, period: float) -> None:
@@ -112,7 +114,8 @@ class Heartbeat:
         # Also after an outage of the same master, which may have missed registrations
         # sent meanwhile.
         if was_lost or self._is_stale or _is_another(known, identity):
-            self._renew(is_news=known is not None)
+            self._is_first = self._is_first or known is None
+            self._renew(is_news=not self._is_first)
         else:
             context.registrations.push()
             await self._is_done(self._look)
@@ -138,9 +141,12 @@ class Heartbeat:
             self._roll_call.suspect()
         elif not self._is_lost and not self._is_stopped:
             self._is_lost = True
+            if self._identity is None:
+                self._is_first = True  # there was none that could be lost
+                return
             uri = context.master.uri
-            context.log.warning("lost the master at %s: %s", uri, error)
-            context.emit(MasterLost(uri, str(error)))
+            context.log.warning("lost the master at %s: %s", uri, error.in_short)
+            context.emit(MasterLost(uri, error.in_short))
 
     def _complain(self, text: str) -> None:
         """Log what goes wrong once, until it is something else."""
@@ -202,7 +208,9 @@ class Heartbeat:
         unreachable = [error for error in failures if isinstance(error, MasterUnreachable)]
         if unreachable and len(unreachable) == entries:
             self._is_stale = True
-        elif is_news and self._identity is not None:
+            return
+        self._is_first = False
+        if is_news and self._identity is not None:
             uri = context.master.uri
             context.log.warning("registered again at the master at %s", uri)
             context.emit(MasterRestarted(uri, self._identity[1]))

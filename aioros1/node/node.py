@@ -535,7 +535,8 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
         """
         async with deadline(timeout, f"no master at {self.master_uri}") as limit:
             while not await self._heartbeat.greet():
-                limit.why = self._heartbeat.refusal
+                if self._heartbeat.refusal is not None:
+                    limit.why = self._heartbeat.refusal.in_short
                 await self._context.pause(0.1)
 
     def __repr__(self) -> str:

@@ -30,7 +30,7 @@ async def wait_for_master(uri: str | None = None, *, timeout: float | None = Non
                 try:
                     await identify(master)
                 except MasterError as error:
-                    limit.why = error.status
+                    limit.why = error.in_short
                 else:
                     return
                 await asyncio.sleep(0.1)

@@ -255,7 +255,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         async with self._limits.limit(timeout, what) as limit:
             with Hint(
                 *(self._context, "services", self.name),
-                lambda: str(obstacle or "").removeprefix(seen),
+                lambda: _in_short(obstacle).removeprefix(seen),
                 timeout,
             ) as limit.why:
                 while (obstacle := await self._obstacle()) is not None:
@@ -353,7 +353,7 @@ class ServiceCaller(Role, Generic[Q, A]):
             return await look_up(self._context, self.name)
         except ServiceNotFound as error:
             similar = await similar_service(self._context, self.name)
-            raise ServiceNotFound(f"{error.text}{similar}") from None
+            raise ServiceNotFound(f"{error.text}{similar}") from error.__cause__
 
     def _drop(self, connection: CallerConnection) -> None:
         connection.link.ended = None  # breaks a reference cycle
@@ -371,3 +371,9 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     async def _close(self) -> None:
         self._abort()
+
+
+def _in_short(obstacle: Exception | None) -> str:
+    if isinstance(obstacle, MasterError):
+        return obstacle.in_short
+    return "" if obstacle is None else str(obstacle)

@@ -41,7 +41,7 @@ async def look_up(context: Context, service: str) -> str:
             raise
         raise ServiceNotFound(
             f"service {service}: no provider: the master at {context.master.uri} knows none"
-        ) from None
+        ) from error
 
 
 async def agree(

@@ -155,10 +155,11 @@ class Publisher(Role, Generic[M]):
         timeout: float | None = None,
         **fields: Any,
     ) -> None:
-        """Publish as soon as every connected subscriber has room in its queue.
+        """Publish as soon as the queue for each connected subscriber has room.
 
-        This drops nothing, whatever ``overflow`` says. While there is room it publishes at
-        once, but lets other tasks run first from time to time.
+        This drops nothing from these queues, whatever ``overflow`` says. A subscriber has a
+        queue of its own, which drops unless its ``overflow`` is ``"block"``. While there is
+        room this publishes at once, but lets other tasks run first from time to time.
 
         Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds. After
         a timeout or a cancellation the message was not published.

@@ -168,8 +168,9 @@ async def test_the_parameters_of_the_command_line_come_before_the_first_answer(p
 # later
 
 
-async def test_roles_are_open_at_once_and_registered_when_a_master_comes(port, caplog):
-    async with node_at(port, "later") as node:
+@pytest.mark.parametrize("heartbeat", [0.02, 0.3])
+async def test_roles_are_open_at_once_and_registered_when_a_master_comes(port, caplog, heartbeat):
+    async with node_at(port, "later", heartbeat=heartbeat) as node:
         events = node.events()
         pub, sub, provider, psub = [await each(node) for each in OPENINGS.values()]
         caller = await node.service_caller("flip", "std_srvs/SetBool")
@@ -179,6 +180,7 @@ async def test_roles_are_open_at_once_and_registered_when_a_master_comes(port, c
         assert node.stats.roles == 5
         with pytest.raises(aioros1.MasterUnreachable):
             await node.get_param("/gain")
+        await asyncio.sleep(2 * heartbeat)
         assert caplog.text.count("no master answers") == 1
         assert f"http://localhost:{port}" in caplog.text
         async with master_at(port, params={"/gain": 2}) as master:
@@ -200,7 +202,14 @@ async def test_roles_are_open_at_once_and_registered_when_a_master_comes(port, c
                     if ("parameter", "/gain") in seen and len(seen) >= 4:
                         break
             assert node.run_id == master.run_id
+            for _ in range(3):
+                await asyncio.sleep(heartbeat)
             await node.close()
+            assert not [
+                event
+                async for event in events
+                if isinstance(event, aioros1.MasterLost | aioros1.MasterRestarted)
+            ]
             state = await _state(master.uri)
             assert "/chatter" not in state.publishers
             assert "/flip" not in state.services
