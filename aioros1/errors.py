@@ -90,19 +90,25 @@ class MessageNotFoundError(MessageError, LookupError):
     """No definition of that type was found in any of the places searched.
 
     ``places`` are the directories, in search order; None when the definition should have
-    been elsewhere.
+    been elsewhere. ``suggestions`` are types with similar names, the likest first.
     """
 
-    def __init__(self, text: str, places: Sequence[str] | None = None) -> None:
-        super().__init__(text, places)
+    def __init__(
+        self, text: str, places: Sequence[str] | None = None, suggestions: Sequence[str] = ()
+    ) -> None:
+        super().__init__(text, places, suggestions)
         self.text = printable(text, _LONGEST)
         """What was not found, without the places."""
         self.places = places
+        self.suggestions = suggestions
 
     def __str__(self) -> str:
-        if self.places is None:
-            return self.text
-        return f"{self.text}; searched: {', '.join(self.places) or 'no directory'}"
+        text = self.text
+        if self.places is not None:
+            text += f"; searched: {', '.join(self.places) or 'no directory'}"
+        if self.suggestions:
+            text += f"; did you mean {' or '.join(self.suggestions)}?"
+        return text
 
 
 @public

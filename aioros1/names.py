@@ -207,8 +207,9 @@ def parse_args(argv: Iterable[str]) -> Arguments:
     """Sort the words of a command line (with or without the program's name).
 
     Words such as ``--a:=b`` are not remappings and stay in ``rest``. The last of several
-    assignments to one name wins. Raises :class:`InvalidNameError` for a remapping to
-    nothing (``a:=``), and :class:`TypeError` for anything but a list of words.
+    assignments to one name wins. An assignment of nothing (``a:=``, ``_a:=``) is ignored, as
+    in rospy: that is what a launch file with an empty argument has. Raises :class:`TypeError`
+    for anything but a list of words.
     """
     if isinstance(argv, str | bytes):
         raise TypeError(f"a command line is a list of words, not one: {argv!r}")
@@ -221,12 +222,12 @@ def parse_args(argv: Iterable[str]) -> Arguments:
         name, value = match[1], match[2].strip()
         if name.startswith("__"):
             arguments.special[name] = value
+        elif not value:
+            continue
         elif name.startswith("_") and len(name) > 1:
             arguments.params[name[1:]] = value
-        elif value:
-            arguments.remappings[name] = value
         else:
-            raise InvalidNameError(f"{word}: {name!r} is remapped to nothing: expected a name")
+            arguments.remappings[name] = value
     return arguments
 
 
@@ -248,5 +249,6 @@ def _namespace_prefix(caller_id: str) -> str:
 
 def _text(name: object, what: str) -> str:
     if not isinstance(name, str):
-        raise TypeError(f"a {what} is a str, not {type(name).__name__}: {name!r}")
+        hint = "; the name comes before the type" if isinstance(name, type) else ""
+        raise TypeError(f"a {what} is a str, not {type(name).__name__}: {name!r:.200}{hint}")
     return name

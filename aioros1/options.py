@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 from aioros1._public import public
+from aioros1.hints import check_kinds
 
 __all__ = [
     "DEFAULT_QUEUE_SIZE",
@@ -71,8 +72,9 @@ class Timeouts:
 class Limits:
     """How much a node or a master accepts from others.
 
-    A host is an address: all machines behind one NAT router count as one host. Connections
-    over Unix sockets, or within one event loop, count only in ``connections``.
+    A host is an IPv4 address or an IPv6 network of 64 bits: all machines behind one NAT router
+    count as one host. All addresses of this machine are one host. Connections over Unix
+    sockets, or within one event loop, count only in ``connections``.
 
     Raises :class:`ValueError` for a limit that is not a positive number.
     """
@@ -83,6 +85,11 @@ class Limits:
 
     header_fields: int = 256
     """Fields of a connection header. ROS 1 programs send about eight."""
+
+    kept_header_bytes: int = 32 << 20
+    """Bytes of connection headers that a node keeps in sum, while their connections last.
+    Beyond that it keeps only the names and flags that ROS 1 defines, so that
+    ``ConnectionInfo.header`` lacks the rest."""
 
     message_bytes: int = 1_000_000_000
     """Bytes of one message or service request; the same limit as in roscpp."""
@@ -96,6 +103,10 @@ class Limits:
     ``connections``, so that no single host can shut out all others. A graph of hundreds of
     nodes on one machine stays far below it."""
 
+    publishers: int = 10_000
+    """Publishers that a node follows, in sum over its topics. Anybody can send a node a list
+    of them; further ones wait until others have gone."""
+
     xmlrpc_connections: int = 10_000
     """XML-RPC connections open at a time. A master has one or two with each node, and keeps
     them for an hour after their last request."""
@@ -103,6 +114,12 @@ class Limits:
     xmlrpc_bytes: int = 64 << 20
     """Bytes of the body of an XML-RPC request or answer. Robot descriptions and maps go
     through the parameter server."""
+
+    bytes_in_flight: int = 512 << 20
+    """Bytes that a node or a master holds of what is still arriving, or waits to be read by
+    others, in sum over all connections, separately for TCPROS and XML-RPC. Beyond that it
+    closes the connections that have held most for longest. The first 16 KiB of each connection
+    do not count, and one that is alone may hold more, up to its own limit."""
 
     xmlrpc_depth: int = 100
     """Nesting depth of arrays and structs in an XML-RPC value. Parameters of robots reach up
@@ -118,6 +135,18 @@ class Limits:
     xmlrpc_timeout: float = 30.0
     """Seconds for one whole XML-RPC request to arrive. The default is enough for the largest
     request over a slow network."""
+
+    parameter_bytes: int = 256 << 20
+    """Bytes of all parameters of a master, about as many as their XML has. A parameter beyond
+    that cannot be set."""
+
+    parameter_values: int = 500_000
+    """Values of all parameters of a master, namespaces included."""
+
+    registrations: int = 50_000
+    """Publishers, subscribers, services and followed parameters that a master keeps, and the
+    types of topics, which it never forgets. Further ones are refused. A graph of a thousand
+    nodes has some ten thousand."""
 
     requests_per_second: float | None = None
     """XML-RPC requests answered per host and second, on average. Each call in a
@@ -201,9 +230,7 @@ class NodeOptions:
     """The transports that topics may use instead of TCP."""
 
     def __post_init__(self) -> None:
-        for name, (kind, expected) in _KINDS.items():
-            if not isinstance(value := getattr(self, name), kind):
-                raise TypeError(f"{name} must be {expected}, got {value!r}")
+        check_kinds(self, _KINDS)
         for name, port in (("xmlrpc_port", self.xmlrpc_port), ("tcpros_port", self.tcpros_port)):
             if not isinstance(port, int) or isinstance(port, bool) or not 0 <= port <= 65535:
                 raise ValueError(f"{name} must be a whole number from 0 to 65535, got {port!r}")
@@ -244,16 +271,17 @@ def _check_rosout(rosout: object) -> None:
 
 def check_queue(queue_size: int, overflow: str) -> None:
     """Raise :class:`ValueError` for invalid queue options."""
-    if not isinstance(queue_size, int) or queue_size < 1:
-        hint = ""
-        if queue_size is None or queue_size == 0:
-            # rospy publishes without a queue for None, and both stand for no limit elsewhere.
-            hint = (
-                '. Every queue has a limit here: use a large one for bursts, or overflow="block" '
-                "with `await send()` to wait for room"
-            )
+    if not isinstance(queue_size, int) or isinstance(queue_size, bool) or queue_size < 1:
+        # rospy takes None and 0: to publish in the caller's thread, or without a bound.
+        habit = queue_size is None or (isinstance(queue_size, int) and queue_size <= 0)
         raise ValueError(
-            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}{hint}"
+            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r:.200}"
+            + (
+                f": every queue is bounded, and publish() never waits. Leave it out for "
+                f"{DEFAULT_QUEUE_SIZE}, or use overflow='block' and send() to lose nothing"
+                if habit
+                else ""
+            )
         )
     if overflow not in get_args(Overflow):
         choices = ", ".join(map(repr, get_args(Overflow)))

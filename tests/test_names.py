@@ -171,14 +171,18 @@ def test_arguments() -> None:
     ]
     arguments = parse_args(argv)
     assert arguments.remappings == {"a": "b", "/x/y": "~z"}
-    assert arguments.params == {"rate": "10", "text": "a:=b", "empty": ""}
+    assert arguments.params == {"rate": "10", "text": "a:=b"}
     assert arguments.special == {"__name": "other", "__ns": "/robot", "__log": "/tmp/x.log"}
     assert arguments.rest == ["program.py", "--flag", "--opt=a:=b", "-x", "word", "1:=2", ":="]
 
 
-def test_an_argument_that_remaps_to_nothing() -> None:
-    with pytest.raises(InvalidNameError, match="a:=: 'a' is remapped to nothing"):
-        parse_args(["a:="])
+@pytest.mark.parametrize("word", ["a:=", "a:= ", "/a:=", "~a:=", "_a:=", "_a:=  "])
+def test_an_assignment_of_nothing_is_ignored(word: str) -> None:
+    """A launch file has it whose argument is empty."""
+    arguments = parse_args(["a:=b", "_a:=1", word])
+    assert arguments.remappings == {"a": "b"}
+    assert arguments.params == {"a": "1"}
+    assert arguments.rest == []
 
 
 def test_anonymous_names_differ_and_are_names() -> None:

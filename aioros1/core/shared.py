@@ -11,7 +11,6 @@ from abc import ABC, abstractmethod
 from typing import Any, ClassVar, Generic, TypeVar
 
 from aioros1.core.context import Context
-from aioros1.errors import ClosedError, MasterError
 from aioros1.options import WithoutMaster
 
 __all__ = ["Shared"]
@@ -80,7 +79,7 @@ class Shared(ABC, Generic[R]):
             await self._let_go()
         try:
             await self.registration.release()
-        except (MasterError, ClosedError) as error:
+        except Exception as error:  # whatever it is, the rest must be freed
             self._context.log.debug("%s %s cannot be unregistered: %s", self.kind, self.name, error)
         self._leave_table()
         if not self.roles:

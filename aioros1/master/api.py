@@ -14,8 +14,12 @@ from typing import Any
 from aioros1.master.parameters import ParameterTree, holds_nil, param_updates, subscription_key
 from aioros1.master.registry import Answer, Changed, Notification, Registry
 from aioros1.names import resolve_from
+from aioros1.net.http_client import MAX_URI
 
 __all__ = ["MasterApi"]
+
+MAX_NAME = 1_024
+"""Characters of a name or a key."""
 
 _Check = Callable[[str, Any, str], Any]
 """Takes a parameter's name, its value and the caller's name; returns the value to use."""
@@ -29,7 +33,8 @@ class MasterApi:
     """Answers requests from a :class:`.Registry` and a :class:`.ParameterTree`.
 
     ``notify`` takes the notifications for other nodes. ``shutdown`` takes the reason of a
-    request to shut down and the answer to it, and returns what to answer.
+    request to shut down and the answer to it, and returns what to answer. The registry gets
+    ``max_registrations`` at most.
     """
 
     def __init__(
@@ -39,13 +44,18 @@ class MasterApi:
         *,
         notify: Callable[[Iterable[Notification]], object],
         shutdown: Callable[[str, Answer], object],
+        max_registrations: int = 50_000,
     ) -> None:
         self._registry = registry
         self._parameters = parameters
         self._notify = notify
         self._on_shutdown = shutdown
+        self._max_registrations = max_registrations
+        self._room = 0  # registrations that fit for certain
         self.uri = ""
         """The answer of getUri."""
+        self.pid = os.getpid()
+        """The answer of getPid."""
 
     def methods(self) -> dict[str, Callable[..., Any]]:
         """Every method by its name, for :class:`.XmlRpcServer`."""
@@ -63,20 +73,30 @@ class MasterApi:
 
             return call
 
+        def new(change: Callable[..., Changed], failure: Any) -> Callable[..., Answer]:
+            call = told(change)
+
+            def checked(caller_id: str, name: str, *params: Any) -> Answer:
+                if not self._has_room(caller_id, name):
+                    return self._full(failure)
+                return call(caller_id, name, *params)
+
+            return checked
+
         def plain(query: Callable[..., Answer]) -> Callable[..., Answer]:
             return lambda caller_id, *params: query(*params)
 
         return {
             "registerPublisher": _checked(
-                told(registry.register_publisher), [], topic, topic_type, api
+                new(registry.register_publisher, []), [], topic, topic_type, api
             ),
             "unregisterPublisher": _checked(told(registry.unregister_publisher), 0, topic, api),
             "registerSubscriber": _checked(
-                told(registry.register_subscriber), [], topic, topic_type, api
+                new(registry.register_subscriber, []), [], topic, topic_type, api
             ),
             "unregisterSubscriber": _checked(told(registry.unregister_subscriber), 0, topic, api),
             "registerService": _checked(
-                told(registry.register_service), 0, service, ("service_api", _api), api
+                new(registry.register_service, 0), 0, service, ("service_api", _api), api
             ),
             "unregisterService": _checked(
                 told(registry.unregister_service), 0, service, ("service_api", _api)
@@ -89,7 +109,7 @@ class MasterApi:
             "getTopicTypes": _checked(plain(registry.topic_types), []),
             "getSystemState": _checked(plain(registry.system_state), [[], [], []]),
             "getUri": _checked(lambda caller_id: (1, "", self.uri), ""),
-            "getPid": _checked(lambda caller_id: (1, "", os.getpid()), -1),
+            "getPid": _checked(lambda caller_id: (1, "", self.pid), -1),
             "shutdown": _checked(self._shutdown, 0, ("msg", _anything)),
             "setParam": _checked(self._set_param, 0, key, ("value", _value)),
             "getParam": _checked(self._get_param, 0, key),
@@ -100,6 +120,19 @@ class MasterApi:
             "subscribeParam": _checked(self._subscribe_param, 0, api, key),
             "unsubscribeParam": _checked(self._unsubscribe_param, 0, api, key),
         }
+
+    def _has_room(self, caller_id: str, name: str) -> bool:
+        if self._registry.has_registered(caller_id, name):
+            return True
+        # Counted when it may be needed: counting all nodes for each registration is slow.
+        if self._room <= 0:
+            self._room = self._max_registrations - self._registry.count()
+        self._room -= 2  # a publisher may bring a type
+        return self._room >= -1
+
+    def _full(self, failure: Any) -> Answer:
+        text = f"there are {self._max_registrations} registrations (limits.registrations)"
+        return -1, f"ERROR: {text}", failure
 
     # ------------------------------------------------------------------ parameters
 
@@ -143,6 +176,8 @@ class MasterApi:
         return 1, "Parameter names", self._parameters.names()
 
     def _subscribe_param(self, caller_id: str, api: str, key: str) -> Answer:
+        if not self._has_room(caller_id, subscription_key(key)):
+            return self._full(0)
         self._notify(
             self._registry.register_param_subscriber(caller_id, subscription_key(key), api)
         )
@@ -181,6 +216,8 @@ def _checked(
         caller_id = params[0]
         if not isinstance(caller_id, str):
             return -1, "caller_id must be a string", failure
+        if len(caller_id) > MAX_NAME:
+            return -1, f"caller_id has more than {MAX_NAME} characters", failure
         checked = [caller_id]
         try:
             for (name, check), value in zip(checks, params[1:], strict=True):
@@ -192,9 +229,16 @@ def _checked(
     return call
 
 
+def _check_length(name: str, value: str, most: int = MAX_NAME) -> None:
+    # Names are kept, split at each slash, and sent to others.
+    if len(value) > most:
+        raise _RefusedError(name, f"has more than {most} characters")
+
+
 def _name(name: str, value: Any, caller_id: str) -> str:
     if not isinstance(value, str) or not value:
         raise _RefusedError(name, "must be a non-empty string")
+    _check_length(name, value)
     if ":" in value or " " in value:
         raise _RefusedError(name, "contains illegal chars")
     return resolve_from(value, caller_id)
@@ -210,12 +254,14 @@ def _topic(name: str, value: Any, caller_id: str) -> str:
 def _subgraph(name: str, value: Any, caller_id: str) -> str:
     if not isinstance(value, str):
         raise _RefusedError(name, "must be a string")
+    _check_length(name, value)
     return resolve_from(value, caller_id) if value else ""
 
 
 def _type(name: str, value: Any, caller_id: str) -> str:
     if not isinstance(value, str) or not value:
         raise _RefusedError(name, "must be a non-empty string")
+    _check_length(name, value)
     if value != "*" and value.count("/") != 1:
         raise _RefusedError(name, "is not a valid package resource name")
     return value
@@ -224,6 +270,7 @@ def _type(name: str, value: Any, caller_id: str) -> str:
 def _api(name: str, value: Any, caller_id: str) -> str:
     if not isinstance(value, str) or not value:
         raise _RefusedError(name, "is not an XMLRPC URI")
+    _check_length(name, value, MAX_URI)
     if not value.startswith(("http://", "rosrpc://")):
         raise _RefusedError(name, "is not an RPC URI")
     return value
@@ -234,6 +281,7 @@ def _unresolved_key(name: str, value: Any, caller_id: str) -> str:
         raise _RefusedError(name, "must be specified and non-empty")
     if not isinstance(value, str):
         raise _RefusedError(name, "must be a string")
+    _check_length(name, value)
     return value
 
 

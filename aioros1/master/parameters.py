@@ -12,8 +12,12 @@ from typing import Any, NamedTuple
 
 from aioros1.names import is_global, is_private, join
 from aioros1.wire.xmlrpc import MAX_DEPTH
+from aioros1.wire.xmlrpc_size import Size
 
 __all__ = ["ParamUpdate", "ParameterTree", "holds_nil", "param_updates", "subscription_key"]
+
+
+_NAMESPACE = 60  # bytes around its name
 
 
 class ParamUpdate(NamedTuple):
@@ -31,12 +35,22 @@ class ParameterTree:
     """All the parameters of a master.
 
     ``max_depth`` bounds how deep namespaces, arrays and structs are nested: the whole tree
-    has to fit an answer that peers can read.
+    has to fit an answer that peers can read. ``max_bytes`` and ``max_values`` bound all of it.
     """
 
-    def __init__(self, *, max_depth: int = MAX_DEPTH - 1) -> None:
+    def __init__(
+        self,
+        *,
+        max_depth: int = MAX_DEPTH - 1,
+        max_bytes: int = 256 << 20,
+        max_values: int = 500_000,
+    ) -> None:
         self._root: dict[str, Any] = {}
         self._max_depth = max_depth
+        self._max_bytes = max_bytes
+        self._max_values = max_values
+        # At least as much as there is. Counted again when that may be too much.
+        self._bytes = self._values = 0
 
     def get(self, key: str) -> Any:
         """The value or the namespace at ``key``. Raises :class:`KeyError`."""
@@ -60,13 +74,14 @@ class ParameterTree:
 
         A namespace replaces a plain value on the path to ``key``. Raises :class:`TypeError`
         for a root that is not a dict, and :class:`ValueError` for a tree that would get too
-        deep.
+        deep or too large.
         """
         parts = _parts(key)
         if not parts and not isinstance(value, dict):
             raise TypeError("cannot set root of parameter tree to non-dictionary")
         if len(parts) + _depth(value) > self._max_depth:
             raise ValueError(f"more than {self._max_depth} namespaces inside one another")
+        self._make_room(parts, value)
         for part, node in reversed(list(zip(parts, self._branch(parts), strict=True))):
             value = {**node, part: value}
         self._root = value
@@ -113,6 +128,30 @@ class ParameterTree:
     def names(self) -> list[str]:
         """The full names of all parameters; namespaces are not among them."""
         return list(_names("", self._root))
+
+    def _make_room(self, parts: list[str], value: Any) -> None:
+        size = Size(value)
+        size.values += len(parts)
+        size.bytes += sum(map(len, parts)) + _NAMESPACE * len(parts)
+        most_bytes, most_values = self._max_bytes - size.bytes, self._max_values - size.values
+        if self._bytes > most_bytes or self._values > most_values:
+            now, replaced = Size(self._root), Size(self._replaced(parts))
+            self._bytes, self._values = now.bytes, now.values
+            if now.bytes - replaced.bytes > most_bytes:
+                raise ValueError(f"more than {self._max_bytes} bytes of parameters")
+            if now.values - replaced.values > most_values:
+                raise ValueError(f"more than {self._max_values} values in all parameters")
+        self._bytes += size.bytes
+        self._values += size.values
+
+    def _replaced(self, parts: list[str]) -> Any:
+        """What a new value takes the place of; None if there is nothing."""
+        node: Any = self._root
+        for part in parts:
+            if not isinstance(node, dict):
+                break
+            node = node.get(part)
+        return node
 
     def _branch(self, parts: list[str]) -> list[dict[str, Any]]:
         """The namespaces that hold each of ``parts``; empty ones where there are none."""

@@ -9,14 +9,16 @@ import random
 import uuid
 import warnings
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Any, Self
 
 from aioros1._public import public
+from aioros1.hints import explained
 from aioros1.master.api import MasterApi
 from aioros1.master.notifier import Notifier
 from aioros1.master.parameters import ParameterTree, ParamUpdate
+from aioros1.master.process_id import process_id
 from aioros1.master.registry import Answer, Registry
 from aioros1.names import resolve_from
 from aioros1.net.allow import AllowList, parse_address
@@ -33,7 +35,7 @@ from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
 from aioros1.quoting import printable
 from aioros1.wire.xmlrpc import decode_response, encode_response
-from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.client import SHORT_ANSWER, XmlRpcClient
 from aioros1.xmlrpc.server import Reply, XmlRpcServer
 
 __all__ = ["DEFAULT_PORT", "Master", "MasterStats"]
@@ -95,6 +97,7 @@ class Master:
     Raises :class:`ValueError` for invalid networks in ``allow``.
     """
 
+    @explained
     def __init__(
         self,
         host: str | None = None,
@@ -117,17 +120,23 @@ class Master:
         self._run_id = _new_run_id()
         self._registry = Registry()
         # The triple around the value takes one level of an answer.
-        self._parameters = ParameterTree(max_depth=limits.xmlrpc_depth - 1)
+        self._parameters = ParameterTree(
+            max_depth=limits.xmlrpc_depth - 1,
+            max_bytes=limits.parameter_bytes,
+            max_values=limits.parameter_values,
+        )
         given = {"/run_id": self._run_id, **_ROSCORE_PARAMS, **(params or {})}
         for key, value in given.items():
             # Encode and decode: this checks and copies it, with the types a node would send.
             document = encode_response(value, what=f"parameter {key}")
             value = decode_response(document, max_values=limits.xmlrpc_values)
             self._parameters.set(resolve_from(key, "/"), value)
-        self._client = XmlRpcClient(timeouts=timeouts, limits=limits)
+        # It sends notifications only, the answers to which have a few words.
+        answers = replace(limits, xmlrpc_bytes=min(limits.xmlrpc_bytes, SHORT_ANSWER))
+        self._client = XmlRpcClient(timeouts=timeouts, limits=answers)
         self._notifier = Notifier(
             self._client,
-            is_registered=self._registry.knows_api,
+            is_wanted=self._registry.is_wanted,
             on_unwanted=self._unwanted,
         )
         self._api = MasterApi(
@@ -135,6 +144,7 @@ class Master:
             self._parameters,
             notify=self._notifier.send,
             shutdown=self._answer_shutdown,
+            max_registrations=limits.registrations,
         )
         self._server = XmlRpcServer(self._api.methods(), limits=limits, allow=self._allow, log=_LOG)
         # Everything that ends with the master, in reverse order. start() adds the rest, such
@@ -173,8 +183,8 @@ class Master:
         door = self._server.admission
         return MasterStats(door.open, door.refused, door.forbidden, self._server.delayed)
 
-    async def start(self) -> None:
-        """Start to serve.
+    async def start(self) -> Self:
+        """Start to serve; returns the master.
 
         Raises :class:`OSError` when the address or the port is not available, and
         :class:`ValueError` when ``bind`` is not an address, or when ``allow`` excludes this
@@ -189,6 +199,7 @@ class Master:
         except BaseException:
             await self.close()
             raise
+        return self
 
     async def _start(self) -> None:
         host, bind = self._host, self._bind
@@ -206,6 +217,7 @@ class Master:
         self._stack.push_async_callback(self._notifier.close)
         self._stack.push_async_callback(self._server.close)
         await self._server.start(bind, self._port)
+        self._api.pid = process_id(self.port, is_free=not self._port)
         self._uri = self._api.uri = f"http://{uri_host(advertised)}:{self._server.port}/"
         if self._rosout:
             # Imported here because it is a node, which a master alone does not need.
@@ -254,8 +266,7 @@ class Master:
         return self._reason
 
     async def __aenter__(self) -> Self:
-        await self.start()
-        return self
+        return await self.start()
 
     async def __aexit__(
         self,

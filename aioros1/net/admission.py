@@ -5,9 +5,11 @@ from __future__ import annotations
 import asyncio
 import logging
 import socket
+from contextlib import suppress
 from typing import Any
 
-from aioros1.net.allow import AllowList, parse_address
+from aioros1.net.allow import THIS_MACHINE, Address, AllowList, host_of, parse_address
+from aioros1.net.hosts import is_local
 from aioros1.net.rate_limit import Seldom
 
 __all__ = ["THIS_HOST", "Admission"]
@@ -36,7 +38,7 @@ class Admission:
         per_host: int,
         log: logging.Logger | logging.LoggerAdapter[Any],
     ) -> None:
-        self._what = what
+        self.what = what
         self._allow = allow if allow is not None else AllowList(None)
         self._total_name, self._total = total
         self._per_host = per_host
@@ -50,23 +52,23 @@ class Admission:
         self.forbidden = 0
         """Connections refused so far because their address is not allowed."""
 
-    def enter(self, transport: asyncio.BaseTransport) -> str | None:
-        """Decide about a new connection.
+    def enter(self, family: int | None = None, peername: Any = None) -> str | None:
+        """Decide about a new connection from ``peername``, as ``accept()`` gives it with the
+        ``family`` of the socket. A connection within the process has neither.
 
-        Returns the host it comes from, which :meth:`leave` needs when it ends, or ``None``
-        if you must close it at once.
+        Returns the host it comes from, as :func:`.host_of` names it, or ``None`` if you must
+        close it at once. :meth:`leave` needs the host when the connection ends.
         """
         host = THIS_HOST
-        sock = transport.get_extra_info("socket")
-        if sock is not None and sock.family in _INTERNET:
+        if family in _INTERNET:
             try:
-                address = parse_address(transport.get_extra_info("peername")[0])
-            except (OSError, TypeError, ValueError):
+                address = parse_address(peername[0])
+            except (TypeError, ValueError):
                 return None  # the peer has gone already, and its address is unknown
-            host = str(address)
+            host = self._host_of(address)
             if address not in self._allow:
                 self.forbidden += 1
-                self._tell(host, "it is not in allow")
+                self._tell(str(address), "it is not in allow")
                 return None
         if self.open >= self._total:
             self.refused += 1
@@ -92,8 +94,16 @@ class Admission:
             if count:
                 self._hosts[host] = count
 
+    def _host_of(self, address: Address) -> str:
+        host = host_of(address)
+        if host not in self._hosts:  # as the system has to tell
+            with suppress(OSError):  # without a free descriptor it cannot
+                if is_local(str(address)):
+                    return THIS_MACHINE
+        return host
+
     def _tell(self, host: str, why: str) -> None:
         if self._seldom(host, asyncio.get_running_loop().time()):
             self._log.warning(
-                "refused a connection from %s to %s: %s", host or "this host", self._what, why
+                "refused a connection from %s to %s: %s", host or "this host", self.what, why
             )

@@ -12,13 +12,19 @@ from ipaddress import (
     ip_network,
 )
 
-__all__ = ["Address", "AllowList", "parse_address"]
+__all__ = ["THIS_MACHINE", "Address", "AllowList", "host_of", "parse_address"]
 
 Address = IPv4Address | IPv6Address
+
+THIS_MACHINE = "127.0.0.1"
+"""What :func:`host_of` calls this machine."""
+
 Network = IPv4Network | IPv6Network
 
 _EXPECTED = "an IPv4 or IPv6 address or network, such as '10.0.0.5', '10.0.0.0/8' or 'fd00::/8'"
 _MAPPED = IPv6Network("::ffff:0:0/96")
+
+_SUBNET = 64  # bits
 
 
 def parse_address(text: str) -> Address:
@@ -29,6 +35,20 @@ def parse_address(text: str) -> Address:
     """
     address = ip_address(text.partition("%")[0])
     return getattr(address, "ipv4_mapped", None) or address
+
+
+def host_of(address: Address) -> str:
+    """Name the host that ``address`` belongs to, for limits that hosts share.
+
+    A machine has 16 million loopback addresses, and may take any address of its IPv6 subnet,
+    so that a limit for each address would limit nobody. All loopback addresses are one host,
+    and all addresses of a /64.
+    """
+    if address.is_loopback:
+        return THIS_MACHINE
+    if isinstance(address, IPv6Address):
+        return str(IPv6Network((address, _SUBNET), strict=False))
+    return str(address)
 
 
 class AllowList:

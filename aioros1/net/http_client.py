@@ -15,11 +15,13 @@ from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
 from aioros1.net.connecting import connect, reason_of
+from aioros1.net.ending import shut_down
 from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
+from aioros1.wire.carriage_returns import with_references
 from aioros1.wire.http import AnswerReader, HttpError
 
-__all__ = ["HttpClient", "Server", "server_at"]
+__all__ = ["MAX_URI", "HttpClient", "Server", "server_at"]
 
 PER_SERVER = 8
 """The most connections to one server. Enough for a node that registers many roles at once,
@@ -48,9 +50,21 @@ class Server(NamedTuple):
     """The head of a request, up to the length of its body."""
 
 
+MAX_URI = 2_048
+"""The longest URI. Those of ROS 1 have some thirty characters."""
+
+
 @lru_cache(maxsize=1024)
-def server_at(uri: str) -> Server:
-    """Parse ``uri``. Raises :class:`ValueError` if it is not an HTTP URI."""
+def server_at(uri: str, *, any_path: bool = False) -> Server:
+    """Parse ``uri``. Raises :class:`ValueError` if it is not an HTTP URI, or a very long one.
+
+    Whoever registers a node chooses the URI to which its master and other nodes send
+    requests. They serve XML-RPC at ``/`` and ``/RPC2`` alone, so that any other path, and any
+    query, becomes ``/``: otherwise one could have requests sent to the pages of any HTTP
+    server. With ``any_path`` the path is kept.
+    """
+    if len(uri) > MAX_URI:
+        raise ValueError(f"a URI of {len(uri)} characters, more than {MAX_URI}")
     parts = urlsplit(uri)
     host, port = parts.hostname, 80 if parts.port is None else parts.port
     if parts.scheme != "http" or not host or not port:
@@ -62,6 +76,8 @@ def server_at(uri: str) -> Server:
     path = quote(parts.path or "/RPC2", safe="/%:@!$&'()*+,;=~")
     if parts.query:
         path += "?" + quote(parts.query, safe="/%:@!$&'()*+,;=~?")
+    if path != "/RPC2" and not any_path:
+        path = "/"
     head = (
         f"POST {path} HTTP/1.1\r\nHost: {uri_host(quote(host, safe=':%'))}:{port}\r\n"
         "Content-Type: text/xml\r\nUser-Agent: aioros1\r\nContent-Length: "
@@ -79,8 +95,11 @@ class HttpClient:
         self._none_open = Waiters()  # woken when the last connection has ended
         self._sweeper: asyncio.TimerHandle | None = None
 
-    async def post(self, server: Server, body: bytes) -> AnswerReader:
-        """Send ``body`` and return the answer. Raises
+    async def post(
+        self, server: Server, body: bytes, *, counts: bool = True, max_bytes: int | None = None
+    ) -> AnswerReader:
+        """Send ``body`` and return the answer, of at most ``max_bytes``. Unless it ``counts``,
+        the request gets a connection even if PER_SERVER requests are in progress. Raises
 
         - :class:`ConnectionError` if the server cannot be reached,
         - :class:`ConnectionResetError` if the connection is lost before the answer,
@@ -93,10 +112,18 @@ class HttpClient:
                 self._sweeper = asyncio.get_running_loop().call_later(IDLE, self._sweep)
         pool.users += 1
         try:
-            async with pool.slots:
-                return await self._post(pool, server, body)
+            async with pool.slots if counts else contextlib.nullcontext():
+                answer = await self._post(pool, server, body, max_bytes or self._max_bytes)
+            pool.is_python = b"Python/" in answer.server
+            return answer
         finally:
             pool.users -= 1
+
+    def losses(self, server: Server) -> int:
+        """How many kept connections to ``server`` were lost since it was first asked, or asked
+        after a long time."""
+        pool = self._pools.get(server[:2])
+        return 0 if pool is None else pool.losses
 
     def close_idle(self) -> None:
         """Close the connections that no request is using."""
@@ -114,9 +141,11 @@ class HttpClient:
                 lambda: not self._open, timeout=CLOSING, what="connections did not close"
             )
 
-    async def _post(self, pool: _Pool, server: Server, body: bytes) -> AnswerReader:
+    async def _post(self, pool: _Pool, server: Server, body: bytes, max_bytes: int) -> AnswerReader:
         lost: ConnectionResetError | None = None
-        answer = AnswerReader(max_bytes=self._max_bytes)
+        if pool.is_python:
+            body = with_references(body)
+        answer = AnswerReader(max_bytes=max_bytes)
         connection = pool.take()
         if connection is not None:
             try:
@@ -132,6 +161,7 @@ class HttpClient:
                 # other kept ones may be just as stale.
                 if answer.has_begun:
                     raise
+                pool.losses += 1
                 lost = error
             else:
                 pool.put(connection)
@@ -179,12 +209,15 @@ class HttpClient:
 class _Pool:
     """The connections to one server."""
 
-    __slots__ = ("idle", "slots", "users")
+    __slots__ = ("idle", "is_python", "losses", "slots", "users")
 
     def __init__(self) -> None:
+        self.is_python = False
+        """Whether the server is Python's, by its last answer."""
         self.idle: list[_Connection] = []
         self.slots = asyncio.Semaphore(PER_SERVER)
         self.users = 0  # requests in progress or waiting for a slot
+        self.losses = 0  # connections that the server, or the network, has closed
 
     def take(self) -> _Connection | None:
         """Take the idle connection that was used last."""
@@ -215,6 +248,7 @@ class _Connection(asyncio.Protocol):
         "_answer",
         "_ended",
         "_failure",
+        "_is_aborted",
         "_is_paused",
         "_keeps_alive",
         "_pool",
@@ -231,6 +265,7 @@ class _Connection(asyncio.Protocol):
         self._answer: AnswerReader | None = None  # while it is not complete
         self._failure: Exception | None = None
         self._waiter: asyncio.Future[None] | None = None
+        self._is_aborted = False  # by this side
         self._is_paused = False
         self._keeps_alive = False
         self.idle_since = 0.0
@@ -273,6 +308,7 @@ class _Connection(asyncio.Protocol):
 
     def abort(self) -> None:
         """Close at once."""
+        self._is_aborted = True
         self._transport.abort()
 
     async def _send(self, head: bytes, body: bytes) -> bool:
@@ -314,9 +350,12 @@ class _Connection(asyncio.Protocol):
         self._transport = cast("asyncio.Transport", transport)
 
     def connection_lost(self, exc: Exception | None) -> None:
+        shut_down(self._transport)
         self._ended(self)
         if self in self._pool.idle:
             self._pool.idle.remove(self)
+            if not self._is_aborted:
+                self._pool.losses += 1
         self._is_paused = False
         why = "the server closed it" if exc is None else str(exc)
         if isinstance(exc, OSError):

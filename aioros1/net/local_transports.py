@@ -25,7 +25,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from aioros1.net.loop_state import LoopState, loop_state
-from aioros1.net.tcpros import Listener, Stream
+from aioros1.net.tcpros import Listener, Stream, StreamProtocol
 from aioros1.options import LocalTransport
 
 __all__ = ["INTRAPROCESS", "UNIXROS", "LocalTransports"]
@@ -144,14 +144,18 @@ def _connect_in_process(key: str) -> Stream:
 
 
 async def _connect_unix(name: str) -> Stream:
+    loop = asyncio.get_running_loop()
+    reader = asyncio.StreamReader(loop=loop)
     sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         sock.setblocking(False)
         # This never waits, and fails if too many others are waiting to be accepted. asyncio
         # would take that failure for a connection in progress, as it is with TCP.
         sock.connect(f"\0{name}")
-        reader, writer = await asyncio.open_unix_connection(sock=sock)
+        transport, protocol = await loop.create_unix_connection(
+            lambda: StreamProtocol(reader, loop=loop), sock=sock
+        )
     except BaseException:
         sock.close()
         raise
-    return Stream(reader, writer)
+    return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop))

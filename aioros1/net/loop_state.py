@@ -14,6 +14,7 @@ from threading import get_ident
 from typing import TYPE_CHECKING
 
 from aioros1.net.coalescing import Coalescer
+from aioros1.net.turns import Turns
 from aioros1.wire.frames import READ
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ class LoopState:
         "receive_buffer",
         "thread_id",
         "token",
+        "turns",
     )
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -45,6 +47,8 @@ class LoopState:
         :meth:`check_thread`."""
         self.coalescer = Coalescer(loop, self.check_thread)
         """Decides which messages are sent together."""
+        self.turns = Turns(loop)
+        """Shares the loop between requests that take long."""
         self.token = os.urandom(16).hex()
         """Names the loop to its own nodes. Nobody outside can guess it."""
         self.listeners: dict[str, Listener] = {}

@@ -12,6 +12,8 @@ import asyncio
 from collections.abc import Callable
 from typing import Any, cast
 
+from aioros1.net.budget import Budget
+from aioros1.net.ending import shut_down
 from aioros1.net.tcpros import Stream
 from aioros1.wire.service import ServiceFrameError, frame_length
 
@@ -27,11 +29,19 @@ class ServiceLink(asyncio.Protocol):
     ``head`` is the number of bytes up to the end of a frame's length: 4 in a request, 5 in
     an answer. Memory grows with the bytes received, not with the length announced.
     ``patience`` is how many seconds may pass without a byte while a frame is incomplete,
-    ``stall`` how many while the other side takes nothing of what was written.
+    ``stall`` how many while the other side takes nothing of what was written. What is
+    incomplete, not answered or not read by the other side counts in ``budget``.
     """
 
     def __init__(
-        self, stream: Stream, *, head: int, max_bytes: int, patience: float, stall: float
+        self,
+        stream: Stream,
+        *,
+        head: int,
+        max_bytes: int,
+        patience: float,
+        stall: float,
+        budget: Budget | None = None,
     ) -> None:
         self.peer = stream.peer
         self._stream = stream  # a StreamWriter that is collected closes its transport
@@ -42,6 +52,7 @@ class ServiceLink(asyncio.Protocol):
         self._transport: asyncio.Transport = stream.transport
         self._loop = asyncio.get_running_loop()
         self._buffer = bytearray()
+        self._share = None if budget is None else budget.share(self._cut_off)
         self._wanted = 0  # bytes of the frame in the buffer, once its length is there
         self._receiver: asyncio.Future[Any] | None = None
         self.at_once: Callable[[bytes], Any] | None = None
@@ -65,6 +76,7 @@ class ServiceLink(asyncio.Protocol):
         receiver = self._receiver
         if receiver is None or receiver.done():
             self._buffer += data
+            self._hold()
             if len(self._buffer) > _AHEAD and not self._is_paused:
                 self._is_paused = True
                 self._transport.pause_reading()
@@ -74,6 +86,7 @@ class ServiceLink(asyncio.Protocol):
                 frame: bytes | None = data  # the usual case of small ones: no copy
             else:
                 self._buffer += data
+                self._hold()
                 frame = self._next()
         except ServiceFrameError as error:
             receiver.set_exception(error)
@@ -88,13 +101,19 @@ class ServiceLink(asyncio.Protocol):
             receiver.set_result(frame)
         elif (result := self.at_once(frame)) is not None:
             receiver.set_result(result)
+        elif self._share is not None and self._share.size and self._writable is None:
+            self._share.close()  # it was answered
 
     def eof_received(self) -> bool:
         self._end()
         return True  # it may still wait for its answer
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._failure = exc
+        if self._failure is None:
+            self._failure = exc
+        if self._share is not None:
+            self._share.close()
+        shut_down(self._transport)
         self._end()
         if self._writable is not None and not self._writable.done():
             self._writable.set_result(None)
@@ -136,6 +155,9 @@ class ServiceLink(asyncio.Protocol):
         if self._is_paused:
             self._is_paused = False
             self._transport.resume_reading()
+        if self._share is not None and self._share.size and self._writable is None:
+            self._share.close()  # the last request was answered
+            self._hold()
         self._receiver = self._loop.create_future()
         self._set_timer(self._patience if self._buffer else patience)
         try:
@@ -153,6 +175,8 @@ class ServiceLink(asyncio.Protocol):
         if self._transport.is_closing():
             raise self._failure or ConnectionResetError(f"{self.peer}: connection lost")
         self._transport.write(data)
+        if self._writable is not None:
+            self._hold()
 
     async def drain(self) -> None:
         """Wait until the other side has taken enough of what was written.
@@ -175,6 +199,20 @@ class ServiceLink(asyncio.Protocol):
 
     def abort(self) -> None:
         """Close at once; what was written may be lost."""
+        self._transport.abort()
+
+    def _hold(self) -> None:
+        """Note what is held of the other side's data, and for it."""
+        if self._share is not None:
+            unread = self._transport.get_write_buffer_size()
+            self._share.grow_to(len(self._buffer) + unread)
+
+    def _cut_off(self) -> None:
+        self._failure = ConnectionResetError(
+            f"{self.peer} was cut off: all connections together held too much"
+        )
+        self._buffer.clear()
+        self._wanted = 0
         self._transport.abort()
 
     # frames

@@ -15,14 +15,17 @@ from typing import Any, Literal, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
 from aioros1.errors import ClosedError
+from aioros1.net.accepting import ListeningSocket
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
+from aioros1.net.budget import Share
 from aioros1.net.connecting import connect as connect_tcp
 from aioros1.net.connecting import reason_of
+from aioros1.net.ending import shut_down
 from aioros1.net.hosts import bind_sockets, set_keepalive
 from aioros1.options import Limits, Timeouts
 
-__all__ = ["Listener", "Stream", "connect", "connection_info", "take_over"]
+__all__ = ["Listener", "Stream", "StreamProtocol", "connect", "connection_info", "take_over"]
 
 _LOG = logging.getLogger("aioros1.tcpros")
 
@@ -46,10 +49,28 @@ class Side(Protocol):
     def receive_data(self, data: bytes) -> bool: ...
 
 
-class Stream:
-    """A connection during the handshake: a reader, a writer, and what both need."""
+class StreamProtocol(asyncio.StreamReaderProtocol):
+    """asyncio's protocol of a stream, which ends the connection for forked processes, too."""
 
-    __slots__ = ("peer", "reader", "transport_name", "writer")
+    _connection: asyncio.BaseTransport | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._connection = transport
+        super().connection_made(transport)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        shut_down(self._connection)
+        self._connection = None
+        super().connection_lost(exc)
+
+
+class Stream:
+    """A connection during the handshake: a reader, a writer, and what both need.
+
+    Raises :class:`OSError` if the connection is lost already.
+    """
+
+    __slots__ = ("local", "peer", "reader", "remote", "transport_name", "writer")
 
     def __init__(
         self,
@@ -59,13 +80,18 @@ class Stream:
     ) -> None:
         self.reader = reader
         self.writer = writer
+        self.local = self.remote = ("", 0)
         sock = writer.get_extra_info("socket")
         if sock is None:
             self.transport_name = "INTRAPROCESS"
             self.peer = "this process"
         elif sock.family in (socket.AF_INET, socket.AF_INET6):
             self.transport_name = "TCPROS"
-            self.peer = _address_text(writer.get_extra_info("peername"))
+            # Now, because uvloop asks the system, which forgets them when the peer resets
+            # the connection.
+            self.local = _address(writer, "sockname")
+            self.remote = _address(writer, "peername")
+            self.peer = _address_text(self.remote)
             _tune(sock, timeouts)
         else:
             self.transport_name = "UNIXROS"
@@ -76,16 +102,25 @@ class Stream:
     def transport(self) -> asyncio.Transport:
         return cast("asyncio.Transport", self.writer.transport)
 
-    async def receive_header(self, side: Side, *, timeout: float) -> None:
-        """Read until ``side`` has its header, and not a byte more.
+    async def receive_header(
+        self, side: Side, *, timeout: float, share: Share | None = None
+    ) -> None:
+        """Read until ``side`` has its header, and not a byte more. Meanwhile ``share`` holds
+        what has come.
 
         Raises :class:`~aioros1.HandshakeError`, :class:`TimeoutError`, and
         :class:`ConnectionError` when the connection ends before.
         """
         try:
+            size = 0
             async with asyncio.timeout(timeout):
                 while True:
                     data = await self.reader.read(side.missing)
+                    if share is not None:
+                        size += len(data)
+                        share.grow_to(size)
+                        if share.is_cut:
+                            raise ConnectionResetError("all connections together held too much")
                     if not data:
                         raise ConnectionResetError("the other side closed it")
                     if side.receive_data(data):
@@ -136,9 +171,9 @@ async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
     loop = asyncio.get_running_loop()
     readers: dict[asyncio.BaseProtocol, asyncio.StreamReader] = {}  # a protocol does not keep it
 
-    def stream_protocol() -> asyncio.StreamReaderProtocol:
+    def stream_protocol() -> StreamProtocol:
         reader = asyncio.StreamReader(loop=loop)
-        protocol = asyncio.StreamReaderProtocol(reader, loop=loop)
+        protocol = StreamProtocol(reader, loop=loop)
         readers[protocol] = reader
         return protocol
 
@@ -155,7 +190,11 @@ async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
             ) from None
         raise ConnectionError(f"cannot connect to {host}:{port}: {reason_of(error)}") from None
     reader = readers[protocol]
-    return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop), timeouts)
+    try:
+        return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop), timeouts)
+    except OSError as error:
+        transport.abort()
+        raise ConnectionError(f"cannot connect to {host}:{port}: {error}") from error
 
 
 async def take_over(stream: Stream, protocol: asyncio.BaseProtocol) -> bytes:
@@ -188,15 +227,13 @@ def connection_info(
     header: Mapping[str, str],
 ) -> ConnectionInfo:
     """Describe a connection whose handshake is done."""
-    writer = stream.writer
-    sock = writer.get_extra_info("socket")
-    over_ip = stream.transport_name == "TCPROS"
+    sock = stream.writer.get_extra_info("socket")
     return ConnectionInfo(
         name=name,
         direction=direction,
         peer=peer,
-        local=writer.get_extra_info("sockname")[:2] if over_ip else ("", 0),
-        remote=writer.get_extra_info("peername")[:2] if over_ip else ("", 0),
+        local=stream.local,
+        remote=stream.remote,
         fileno=sock.fileno() if sock is not None else -1,
         header=header,
         transport=stream.transport_name,
@@ -224,24 +261,23 @@ class Listener:
         self._serve = serve
         self._spawn = spawn
         self._timeouts = timeouts
+        self._log = log if log is not None else _LOG
         self.admission = Admission(
             "the TCPROS port",
             allow=allow,
             total=("connections", limits.connections),
             per_host=limits.connections_per_host,
-            log=log if log is not None else _LOG,
+            log=self._log,
         )
-        self._servers: list[asyncio.Server] = []
+        self._sockets: list[ListeningSocket] = []
         self.port = 0
 
     async def start(self, host: str, port: int) -> None:
         """Listen. Raises :class:`OSError` if the address is in use, or not of this machine."""
-        sockets = bind_sockets(host, port)
-        self.port = sockets[0].getsockname()[1]
         # One socket: bind_sockets gives several only for a name with several addresses.
-        await self._listen(
-            await asyncio.start_server(self._accepted, sock=sockets[0], start_serving=False)
-        )
+        sock = bind_sockets(host, port)[0]
+        self.port = sock.getsockname()[1]
+        self._listen(sock)
 
     async def listen_unix(self, address: str) -> None:
         """Listen on a Unix socket as well. Raises :class:`OSError`."""
@@ -250,29 +286,34 @@ class Listener:
             sock.setblocking(False)
             sock.bind(address)
             sock.listen(512)
-            server = await asyncio.start_unix_server(self._accepted, sock=sock, start_serving=False)
         except BaseException:
             sock.close()
             raise
-        await self._listen(server)
+        self._listen(sock)
 
-    async def _listen(self, server: asyncio.Server) -> None:
-        # Not in one step with creating it: starting to serve lets other tasks run, and if
-        # this one was cancelled then, nobody would have the server to close it.
-        self._servers.append(server)
-        await server.start_serving()
+    def _listen(self, sock: socket.socket) -> None:
+        self._sockets.append(
+            ListeningSocket(sock, self._new_protocol, admission=self.admission, log=self._log)
+        )
 
     def new_protocol(self) -> asyncio.StreamReaderProtocol:
-        """Make a protocol for our side of a connection that needs no socket."""
+        """Make a protocol for our side of a connection that needs no socket.
+
+        Raises :class:`ConnectionRefusedError` if there are too many connections.
+        """
+        host = self.admission.enter()
+        if host is None:
+            raise ConnectionRefusedError("the node has too many connections")
+        return self._new_protocol(host)
+
+    def _new_protocol(self, host: str) -> asyncio.StreamReaderProtocol:
         loop = asyncio.get_running_loop()
         reader = asyncio.StreamReader(loop=loop)
-        return asyncio.StreamReaderProtocol(reader, self._accepted, loop=loop)
+        return StreamProtocol(reader, partial(self._accepted, host), loop=loop)
 
-    def _accepted(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        host = self.admission.enter(writer.transport)
-        if host is None:
-            writer.transport.abort()
-            return
+    def _accepted(
+        self, host: str, reader: asyncio.StreamReader, writer: asyncio.StreamWriter
+    ) -> None:
         try:
             stream = Stream(reader, writer, self._timeouts)
             self._spawn(partial(self._run, host), stream, name=f"tcpros {stream.peer}")
@@ -288,8 +329,13 @@ class Listener:
 
     def close(self) -> None:
         """Stop listening; open connections stay open."""
-        while self._servers:
-            self._servers.pop().close()
+        for sock in self._sockets:
+            sock.close()
+
+    async def wait_closed(self) -> None:
+        """Wait until each connection that was being accepted is served or closed."""
+        while self._sockets:
+            await self._sockets.pop().wait_closed()
 
 
 def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
@@ -304,8 +350,13 @@ def _tune(sock: socket.socket, timeouts: Timeouts) -> None:
         sock.setsockopt(socket.IPPROTO_TCP, option, round(1000 * min(given_up, 3 * _LONGEST)))
 
 
-def _address_text(address: object) -> str:
-    if isinstance(address, tuple) and len(address) >= 2:
-        host, port = address[0], address[1]
-        return f"[{host}]:{port}" if ":" in str(host) else f"{host}:{port}"
-    return str(address)
+def _address(writer: asyncio.StreamWriter, name: str) -> tuple[str, int]:
+    address = writer.get_extra_info(name)
+    if not address:
+        raise ConnectionResetError("connection lost before the handshake")
+    return address[0], address[1]
+
+
+def _address_text(address: tuple[str, int]) -> str:
+    host, port = address
+    return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"

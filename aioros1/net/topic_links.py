@@ -12,6 +12,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
+from aioros1.net.budget import Budget
+from aioros1.net.ending import shut_down
 from aioros1.net.tcpros import Stream
 from aioros1.wire.frames import FrameError, FrameReceiver
 from aioros1.wire.handshake import TopicOffer
@@ -59,6 +61,7 @@ class IncomingLink(asyncio.BufferedProtocol):
         buffer: memoryview,
         *,
         max_bytes: int,
+        budget: Budget | None = None,
     ) -> None:
         self.info = info
         self.offer = offer
@@ -73,7 +76,9 @@ class IncomingLink(asyncio.BufferedProtocol):
         self._clock = clock
         self._stream = stream  # a StreamWriter that is collected closes its transport
         self._transport: asyncio.Transport | None = None
-        self._receiver = FrameReceiver(self, buffer, max_bytes=max_bytes)
+        self._share = None if budget is None else budget.share(self._cut_off)
+        on_large = None if budget is None else self._hold
+        self._receiver = FrameReceiver(self, buffer, max_bytes=max_bytes, on_large=on_large)
         self._pauses = 0
         self._seen = 0
 
@@ -106,6 +111,8 @@ class IncomingLink(asyncio.BufferedProtocol):
         if exc is not None and self.failure is None:
             self.failure = str(exc)
         self.is_closed = True
+        self._hold(0)
+        shut_down(self._transport)
         self._on_closed()
 
     def block_received(self, data: bytes | memoryview) -> None:
@@ -137,6 +144,18 @@ class IncomingLink(asyncio.BufferedProtocol):
         """Whether bytes came since the last call, or none could because of a pause."""
         seen, self._seen = self._seen, self._receiver.bytes_received
         return self._pauses > 0 or seen != self._seen
+
+    def _hold(self, size: int) -> None:
+        """Note how much memory an incomplete message takes."""
+        if self._share is not None:
+            if size:
+                self._share.grow_to(size)
+            else:
+                self._share.close()
+
+    def _cut_off(self) -> None:
+        self.failure = "all connections together held too much"
+        self.abort()
 
     def _refuse(self, error: FrameError) -> None:
         self.failure = str(error)
@@ -228,6 +247,7 @@ class OutgoingLink(asyncio.Protocol):
             self.failure = str(exc)
         self.is_open = False
         self.is_closed = True
+        shut_down(self._transport)
         self._owner.messages_lost(self)
         self.queue.clear()
         self._unwatch()

@@ -60,6 +60,10 @@ class Acceptor:
         self.local.close()
         self._listener.close()
 
+    async def wait_closed(self) -> None:
+        """Wait until each connection that was being accepted is served or closed."""
+        await self._listener.wait_closed()
+
     async def _serve(self, stream: Stream) -> None:
         context, log = self._context, self._context.log
         server = Server(
@@ -67,8 +71,10 @@ class Acceptor:
             max_bytes=context.limits.header_bytes,
             max_fields=context.limits.header_fields,
         )
+        share = context.budget.share(stream.abort)
         try:
-            await stream.receive_header(server, timeout=context.timeouts.handshake)
+            await stream.receive_header(server, timeout=context.timeouts.handshake, share=share)
+            share.close()
             serve = self._serve_topic if server.service is None else self._serve_service
             assert serve is not None
             await serve(stream, server)
@@ -85,6 +91,7 @@ class Acceptor:
         except OSError:
             pass  # it closed before it was served
         finally:
+            share.close()
             # Buffered bytes are still sent; there is no need to wait for that.
             stream.writer.close()
 

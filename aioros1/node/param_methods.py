@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
+from aioros1.hints import explained, methods_of
 from aioros1.node.introduction import Introduction
 from aioros1.params.params import Params
 from aioros1.params.subscriber import ParamSubscriber
@@ -16,6 +17,7 @@ __all__ = ["ParamMethods"]
 T = TypeVar("T")
 
 
+@methods_of("Node")
 class ParamMethods:
     """The parameter methods of :class:`~aioros1.Node`."""
 
@@ -23,6 +25,7 @@ class ParamMethods:
     _introduction: Introduction
     _params: Params
 
+    @explained
     def subscribe_param(self, key: str, *, default: Any = ...) -> Opening[ParamSubscriber]:
         """Follow a parameter and everything below it.
 

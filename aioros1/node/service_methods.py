@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Unpack, overload
+from typing import Any, Literal, TypedDict, TypeVar, Unpack, overload
 
 from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
-from aioros1.idl import Message
+from aioros1.hints import check_takes, explained, methods_of
+from aioros1.idl import Message, Service
+from aioros1.idl.genpy_types import GenpyMessage, GenpyService
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
 from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
 from aioros1.services.provider_connection import Handler
 from aioros1.services.services import Services
-
-if TYPE_CHECKING:
-    from aioros1.idl import Service
-    from aioros1.idl.genpy_types import GenpyMessage, GenpyService
 
 __all__ = ["ServiceMethods"]
 
@@ -31,6 +29,7 @@ class _CallerKeywords(TypedDict, total=False):
     tcp_nodelay: bool
 
 
+@methods_of("Node")
 class ServiceMethods:
     """The service methods of :class:`~aioros1.Node`."""
 
@@ -67,6 +66,7 @@ class ServiceMethods:
         max_concurrency: int | None = None,
         raw: bool = False,
     ) -> Opening[ServiceProvider[Any, Any]]: ...
+    @explained
     def advertise_service(
         self,
         name: str,
@@ -88,6 +88,9 @@ class ServiceMethods:
         provides the service.
         """
         options = ServiceProviderOptions(max_concurrency=max_concurrency, raw=raw)
+        if handler is not None:
+            what = "the serialised request" if raw else "the request"
+            check_takes(handler, f"service {name}: the handler", what)
         opening = self._services.advertise(name, type, handler, options, self._contact.policy)
         return Opening(opening, f"provider of service {name}")
 
@@ -109,6 +112,7 @@ class ServiceMethods:
         raw: bool = False,
         **options: Unpack[_CallerKeywords],
     ) -> Opening[ServiceCaller[Any, Any]]: ...
+    @explained
     def service_caller(
         self,
         name: str,

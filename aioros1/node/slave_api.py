@@ -7,6 +7,7 @@ that it failed. rosnode, roswtf and the master read the values.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,9 @@ from aioros1.params.params import Params
 from aioros1.quoting import printable
 from aioros1.services.services import Services
 from aioros1.topics.topics import Topics
+from aioros1.wire.handshake import MAX_NAME
 from aioros1.wire.xmlrpc import carriable
+from aioros1.wire.xmlrpc_scalars import brief
 from aioros1.xmlrpc.server import Reply
 
 if TYPE_CHECKING:
@@ -26,6 +29,9 @@ if TYPE_CHECKING:
 __all__ = ["SlaveApi"]
 
 Triple = list[Any]
+
+_REPLACED = re.compile(r"\[(/[^\]\s]*)\] Reason: ")
+"""How the reason of a shutdown begins that a master sends: with the node that it is for."""
 
 
 class SlaveApi:
@@ -121,23 +127,32 @@ class SlaveApi:
         return [1, "publications", rows]
 
     def shutdown(self, caller_id: Any, reason: Any = "") -> Triple | Reply:
-        """Answer, then close the node. Anyone may call this, as rosnode kill does."""
+        """Answer, then close the node. Anyone may call this, as rosnode kill does.
+
+        A master names the node that another one of the same name replaces, and calls the
+        address at which that node was. If its process is gone, we may have its port now.
+        """
         if not isinstance(reason, str):
             return _wrong("msg", reason, "a string")
+        addressee = _REPLACED.match(reason)
+        if addressee is not None and canonicalize(addressee[1]) != self._context.name:
+            self._context.log.info("ignored a shutdown that is meant for %s", addressee[1])
+            text = f"this is {self._context.name}, not {printable(addressee[1])}"
+            return [-1, text, 0]
         who = printable(caller_id) if isinstance(caller_id, str) else "unknown caller"
         why = f"[{who}] {printable(reason)}"
         return Reply([1, "shutdown", 0], after=lambda: self._shut_down(why))
 
     def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
-        if not isinstance(key, str) or not key.startswith("/"):
+        if not _is_name(key) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
         # The master sends the key with a trailing slash, tools without.
-        if not self._params.updated(canonicalize(key), value):
+        if not self._params.announced(canonicalize(key), value):
             return [-1, f"not subscribed to parameter {printable(key)}", 0]
         return [1, "", 0]
 
     def publisher_update(self, caller_id: Any, topic: Any, publishers: Any) -> Triple:
-        if not isinstance(topic, str) or not topic:
+        if not _is_name(topic):
             return _wrong("topic", topic, "the name of a topic")
         if not isinstance(publishers, list) or not all(map(_is_http_uri, publishers)):
             return _wrong("publishers", publishers, "a list of http:// URIs")
@@ -147,7 +162,7 @@ class SlaveApi:
         return [1, "", 0]
 
     def request_topic(self, caller_id: Any, topic: Any, protocols: Any) -> Triple:
-        if not isinstance(topic, str) or not topic:
+        if not _is_name(topic):
             return _wrong("topic", topic, "the name of a topic")
         if not isinstance(protocols, list) or not protocols:
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
@@ -180,7 +195,11 @@ def _bus_info(info: ConnectionInfo) -> list[Any]:
 
 
 def _wrong(parameter: str, value: object, expected: str) -> Triple:
-    return [-1, f"{parameter} must be {expected}, got {printable(repr(value), 100)}", 0]
+    return [-1, f"{parameter} must be {expected}, got {printable(brief(value), 100)}", 0]
+
+
+def _is_name(value: object) -> bool:
+    return isinstance(value, str) and 0 < len(value) <= MAX_NAME
 
 
 def _is_protocol(value: object) -> bool:

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from aioros1._public import public
 from aioros1.errors import ClosedError, SerializationError, ServiceError
+from aioros1.idl.genpy_types import GenpyMessage
 from aioros1.quoting import printable
 from aioros1.services.side import Side
-
-if TYPE_CHECKING:
-    from aioros1.idl.genpy_types import GenpyMessage
 
 __all__ = ["ServiceCall"]
 

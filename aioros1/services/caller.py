@@ -8,9 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from threading import get_ident
 from types import EllipsisType
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
+from typing import Any, Generic, TypeVar, cast
 
 from aioros1._public import public
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
 from aioros1.core.hints import Hint, similar_service
 from aioros1.core.role import Role
 from aioros1.errors import (
@@ -23,6 +25,9 @@ from aioros1.errors import (
     ServiceNotFound,
     ServiceUnavailable,
 )
+from aioros1.hints import check_kinds
+from aioros1.idl import Service
+from aioros1.idl.genpy_types import GenpyMessage
 from aioros1.net.backoff import Backoff
 from aioros1.services.caller_connection import CallerConnection, connect_to
 from aioros1.services.lookup import look_up, probe
@@ -30,12 +35,6 @@ from aioros1.services.side import Side, callers_side, raw_side
 from aioros1.waiting import Deadlines, Mutex
 from aioros1.wire.handshake import ServiceOffer
 from aioros1.wire.service import ANSWER_HEAD, SUCCESS, ServiceFrameError
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl import Service
-    from aioros1.idl.genpy_types import GenpyMessage
 
 __all__ = ["PendingCall", "ServiceCaller", "ServiceCallerOptions"]
 
@@ -61,6 +60,18 @@ class ServiceCallerOptions:
     raw: bool = False
     """Send requests and return responses as serialised bytes."""
 
+    def __post_init__(self) -> None:
+        flag = (bool, "True or False")
+        check_kinds(
+            self,
+            {
+                "persistent": flag,
+                "timeout": (int | float | None, "a number of seconds or None"),
+                "tcp_nodelay": flag,
+                "raw": flag,
+            },
+        )
+
 
 @public
 class PendingCall(asyncio.Task[A]):
@@ -80,6 +91,7 @@ class ServiceCaller(Role, Generic[Q, A]):
     """
 
     kind = "service caller"
+    _factory = "service_caller"
 
     def __init__(
         self,
@@ -151,13 +163,12 @@ class ServiceCaller(Role, Generic[Q, A]):
         if not self._is_open or get_ident() != self._loop_state.thread_id:
             self._check_open()
         side = self._side
-        try:
-            if fields or request.__class__ is not side.outgoing_class:
+        if fields or request.__class__ is not side.outgoing_class:
+            try:
                 request = side.outgoing(request, fields)
-            answer = await self._call(side, request, timeout)
-        except SerializationError as error:
-            # Only of the request: what an answer fails with is another error.
-            raise error.locate(side.outgoing_type, f"to {self.name}")  # noqa: B904 - the same
+            except SerializationError as error:
+                raise error.locate(side.outgoing_type, f"to {self.name}")  # noqa: B904 - the same
+        answer = await self._call(side, request, timeout)
         return cast("A", answer)
 
     async def call_raw(
@@ -177,7 +188,10 @@ class ServiceCaller(Role, Generic[Q, A]):
         return cast("bytes", answer)
 
     async def _call(self, side: Side, request: Any, timeout: float | EllipsisType | None) -> Any:
-        frame = side.frame(request)
+        try:
+            frame = side.frame(request)
+        except SerializationError as error:
+            raise error.locate(side.outgoing_type, f"to {self.name}")  # noqa: B904 - the same
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
         kept, mutex = self._kept, self._mutex
         if seconds is None and kept is not None and not mutex.is_held and kept.link.is_fresh:

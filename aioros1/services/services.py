@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Mapping
 from typing import Any
 
@@ -45,8 +46,6 @@ class Services:
         name = context.resolve_name(name)
         is_any = options.raw and type == "*"
         service_class = None if is_any else context.store.resolve_srv(type)
-        if handler is not None and not callable(handler):
-            raise TypeError(f"service {name}: the handler is a function, got {handler!r}")
         while (other := self.provisions.get(name)) is not None and other.provider is not None:
             if other.is_open:
                 raise ValueError(f"{context.name} provides service {name} already")
@@ -132,6 +131,12 @@ class Services:
             service = printable(server.service)
             raise HandshakeError(server.peer, f"{name} has no service {service}")
         await provision.serve(stream, server)
+
+    async def end_calls(self) -> None:
+        """Let handlers that run return, while other roles can still be used."""
+        busy = [each for each in self.provisions.values() if each.running]
+        if busy:
+            await asyncio.gather(*(each.end_running() for each in busy))
 
     def abort(self) -> None:
         """End all probes at once."""

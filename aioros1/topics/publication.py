@@ -72,6 +72,9 @@ class Publication(Shared[Publishing]):
         # it down while we iterate over them.
         self._open: tuple[OutgoingLink, ...] = ()
         self._slow: tuple[OutgoingLink, ...] = ()
+        # Connections that are closed once the last messages of closed publishers have gone
+        # out. A publisher that is opened meanwhile has nothing to do with them.
+        self._closing: set[OutgoingLink] = set()
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         # Plain attributes, because every message reads them.
@@ -86,7 +89,7 @@ class Publication(Shared[Publishing]):
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
         """The connections of its subscribers."""
-        return tuple(link.info for link in self._links)
+        return tuple(link.info for link in self._open + self._slow)
 
     @property
     def subscriber_count(self) -> int:
@@ -113,7 +116,7 @@ class Publication(Shared[Publishing]):
 
     @property
     def _links(self) -> tuple[OutgoingLink, ...]:
-        return self._open + self._slow
+        return self._open + self._slow + tuple(self._closing)
 
     def check_type(self, message_class: type[Message]) -> None:
         """Raise :class:`~aioros1.Md5MismatchError` for a type other than the published one."""
@@ -236,6 +239,7 @@ class Publication(Shared[Publishing]):
                 "%s subscribes to %s as %s, but it is %s; accepted, as their md5sums are the same",
                 *(server.caller_id, offer.topic, theirs, offer.type),
             )
+        server.header = context.connections.kept(server.header)
         info = connection_info(stream, self.name, "o", server.caller_id, server.header)
         link = OutgoingLink(stream, info, self, stall=context.timeouts.stall)
         stream.writer.write(answer)
@@ -244,7 +248,7 @@ class Publication(Shared[Publishing]):
         if not self.roles:
             # The last publisher is closing, and the master has not told the subscriber yet.
             # Nothing is wrong, but there is nothing to send.
-            link.close()
+            self._begin_to_close(link)
         try:
             await link.wait_closed()
         finally:
@@ -265,12 +269,27 @@ class Publication(Shared[Publishing]):
         self._context.connections.add(self.kind, link, link.info)
         self.changed.wake()
 
+    def _begin_to_close(self, link: OutgoingLink) -> None:
+        """Close a connection once what waits for it has gone out; it gets nothing else."""
+        self._remove(link)
+        self._closing.add(link)
+        self._look()
+        link.close()
+
+    def _remove(self, link: OutgoingLink) -> None:
+        self._open = tuple(other for other in self._open if other is not link)
+        self._slow = tuple(other for other in self._slow if other is not link)
+
     def link_paused(self, link: OutgoingLink) -> None:
+        if link in self._closing:
+            return
         self._open = tuple(other for other in self._open if other is not link)
         self._slow += (link,)
         self._look()
 
     def link_opened(self, link: OutgoingLink) -> None:
+        if link in self._closing:
+            return
         # The common block holds messages of this iteration that the link has already sent
         # from its own queue, so the block must go out before the link rejoins.
         self._flush()
@@ -296,8 +315,8 @@ class Publication(Shared[Publishing]):
             link.info.stats.dropped += 1
 
     def link_closed(self, link: OutgoingLink) -> None:
-        self._open = tuple(other for other in self._open if other is not link)
-        self._slow = tuple(other for other in self._slow if other is not link)
+        self._remove(link)
+        self._closing.discard(link)
         self._look()
         if link.stalled:
             self._context.log.complain(
@@ -326,12 +345,13 @@ class Publication(Shared[Publishing]):
         """Close all connections once everything published has gone out; cut off the rest.
 
         This happens before the master knows: some subscribers close the connection as soon
-        as it tells them.
+        as it tells them. Connections that are made meanwhile, as a publisher may be opened
+        again, are none of them.
         """
         self._flush()
         links = self._links
         for link in links:
-            link.close()
+            self._begin_to_close(link)
         try:
             async with asyncio.timeout(self._context.timeouts.close):
                 for link in links:
@@ -344,7 +364,8 @@ class Publication(Shared[Publishing]):
                     *(self.name, len(link.queue), link.info.peer, self._context.timeouts.close),
                 )
         finally:
-            self.abort()
+            for link in links:
+                link.abort()
 
     # at the master
 

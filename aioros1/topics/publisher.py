@@ -4,28 +4,27 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 from weakref import WeakSet
 
 from aioros1._public import public
 from aioros1.clock.timer import Timer
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
 from aioros1.core.hints import Hint
 from aioros1.core.role import Role
 from aioros1.errors import ClosedError, SerializationError
+from aioros1.hints import check_takes
 from aioros1.idl import Message
 from aioros1.idl.codec import codec_of
+from aioros1.idl.genpy_types import GenpyMessage
 from aioros1.idl.message_from import message_from
 from aioros1.net.topic_links import JOIN, Frame
+from aioros1.time import Duration, Time
 from aioros1.topics.options import PublisherOptions
+from aioros1.topics.publication import Publication
 from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl.genpy_types import GenpyMessage
-    from aioros1.time import Duration, Time
-    from aioros1.topics.publication import Publication
 
 __all__ = ["Publisher"]
 
@@ -42,6 +41,7 @@ class Publisher(Role, Generic[M]):
     """
 
     kind = "publisher"
+    _factory = "advertise"
 
     def __init__(
         self,
@@ -216,6 +216,8 @@ class Publisher(Role, Generic[M]):
                 self._frame(message_from(self.message_class, msg, fields, "msg"))
             except SerializationError as error:
                 raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
+        else:
+            check_takes(msg, f"publisher {self.name}: the function that makes messages", "the time")
 
         async def publish(now: Time) -> None:
             message: Any = msg
@@ -234,7 +236,7 @@ class Publisher(Role, Generic[M]):
                 pass  # the publisher was closed while this waited
 
         context = self._context
-        timer = Timer(context.clock, context.spawn, context.user_error, period, publish)
+        timer = Timer(context.clock, context.spawn_user, context.user_error, period, publish)
         self._timers.add(timer)
         return timer
 

@@ -8,24 +8,22 @@ import inspect
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 from aioros1._public import public
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
 from aioros1.core.hints import Hint
 from aioros1.core.role import Role
 from aioros1.errors import DeserializationError
+from aioros1.idl import Message
 from aioros1.idl.codec import codec_of
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.time import Time
 from aioros1.topics.decoding import Decoder, decoder_for
 from aioros1.topics.options import SubscriberOptions
+from aioros1.topics.subscription import Subscription
 from aioros1.waiting import Waiters, deadline
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl import Message
-    from aioros1.topics.subscription import Subscription
 
 __all__ = ["Callback", "MessageEvent", "Subscriber"]
 
@@ -67,6 +65,7 @@ class Subscriber(Role, Generic[M]):
     """
 
     kind = "subscriber"
+    _factory = "subscribe"
 
     def __init__(
         self,
@@ -108,7 +107,8 @@ class Subscriber(Role, Generic[M]):
     def _begin(self) -> None:
         """Start the task for a coroutine callback, once the subscriber is open."""
         if self._awaits:
-            self._context.spawn(self._take_all, name=f"callback of subscriber {self.name}")
+            name = f"callback of subscriber {self.name}"
+            self._context.spawn_user(self._take_all, name=name, until="closing")
 
     # what it is
 
@@ -436,7 +436,10 @@ class Subscriber(Role, Generic[M]):
     async def _take_all(self) -> None:
         """Await a coroutine function for each message."""
         callback: Any = self.callback
-        while (item := await self._next_item()) is not None:
+        task = asyncio.current_task()
+        assert task is not None
+        # A callback may have caught its cancellation.
+        while not task.cancelling() and (item := await self._next_item()) is not None:
             try:
                 message = self._decode(item)
             except DeserializationError as error:

@@ -10,15 +10,18 @@ from __future__ import annotations
 
 import asyncio
 import builtins
+from collections import deque
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
-from aioros1.errors import HandshakeError, Md5MismatchError, PeerError
+from aioros1.errors import ClosedError, HandshakeError, Md5MismatchError, PeerError
 from aioros1.log.library_log import ROSOUT
 from aioros1.net.backoff import Backoff
+from aioros1.net.http_client import MAX_URI
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
@@ -37,6 +40,10 @@ _GRACE = 1.0
 """Seconds without a byte after which we close the connection to a publisher that the
 master no longer lists. A publisher that ends closes its connections itself, and its last
 messages may still be on their way when the master announces that it is gone."""
+
+
+_PER_TURN = 20
+"""Publishers that are followed in one iteration of the event loop."""
 
 
 class Subscribing(Protocol):
@@ -80,6 +87,8 @@ class Subscription(Shared[Subscribing]):
         """What keeps publishers from being connected; empty if all are."""
         self._local = local
         self._followers: dict[str, _Follower] = {}
+        self._waiting: deque[str] = deque()  # publishers that are not followed yet
+        self._follows_more = False
         self._links: tuple[IncomingLink, ...] = ()
         self._updates = 0
 
@@ -143,23 +152,48 @@ class Subscription(Shared[Subscribing]):
         self._updates += 1
         if not self.roles:
             return
+        limit = self._context.limits.publishers
         # A dict, not a set: it keeps the master's order and drops duplicates.
-        wanted = dict.fromkeys(uris)
+        wanted = dict.fromkeys(uri for uri in uris if len(uri) <= MAX_URI)
         for uri in [uri for uri in self._followers if uri not in wanted]:
             self._followers[uri].leave()
+        self._waiting.clear()
         for uri in wanted:
             follower = self._followers.get(uri)
             if follower is not None:
                 follower.stay()
-                continue
-            follower = self._followers[uri] = _Follower(self, self._context, self._local, uri)
-            follower.task = self._context.spawn(
-                follower.run, name=f"{self._context.name} follows {self.name} of {printable(uri)}"
-            )
+            elif len(self._waiting) < limit:
+                self._waiting.append(uri)
+        self._follow_some()
+
+    def _follow_some(self) -> None:
+        """Follow some of the publishers that wait; more of them in the next iteration."""
+        context = self._context
+        for _ in range(min(_PER_TURN, len(self._waiting))):
+            if not context.dialling.admit():
+                return  # until another has gone
+            uri = self._waiting.popleft()
+            follower = self._followers[uri] = _Follower(self, context, self._local, uri)
+            try:
+                what = f"{context.name} follows {self.name} of {printable(uri)}"
+                follower.task = context.spawn(follower.run, name=what)
+            except ClosedError:  # the node has ended meanwhile
+                self._waiting.clear()
+                self.follower_ended(uri)
+        if self._waiting and not self._follows_more:
+            self._follows_more = True
+            context.loop_state.loop.call_soon(self._follow_more)
+
+    def _follow_more(self) -> None:
+        self._follows_more = False
+        self._follow_some()
 
     def follower_ended(self, uri: str) -> None:
         """Forget the follower of ``uri``, which has ended."""
-        self._followers.pop(uri, None)
+        if self._followers.pop(uri, None) is not None:
+            self._context.dialling.leave()
+            if self._waiting and not self._follows_more:
+                self._follow_some()
 
     def link_opened(self, link: IncomingLink) -> None:
         """Add the connection to a publisher."""
@@ -201,6 +235,7 @@ class Subscription(Shared[Subscribing]):
 
     def abort(self) -> None:
         """Drop all publishers at once."""
+        self._waiting.clear()
         for follower in tuple(self._followers.values()):
             follower.cancel()
         self.changed.wake()
@@ -283,6 +318,11 @@ class _Follower:
                     await self._connect_and_receive(backoff)
                 except (HandshakeError, PeerError, OSError, TimeoutError) as error:
                     self._complain(str(error))
+                except Exception as error:  # a fault of ours must not cost the publisher
+                    if repr(error) != self.complaint:
+                        self.complaint = repr(error)
+                        what = f"subscriber {self._subscription.name}: connecting to {self._uri}"
+                        self._context.report(error, what)
                 if not self._leaving:
                     await self._stirred(backoff.delay())
             self._subscription.follower_ended(self._uri)
@@ -292,7 +332,8 @@ class _Follower:
 
     async def _connect_and_receive(self, backoff: Backoff) -> None:
         subscription = self._subscription
-        link = await self._connect()
+        async with self._context.dialling.slots:
+            link = await self._connect()
         loop = asyncio.get_running_loop()
         begin = loop.time()
         self.complaint = ""
@@ -360,15 +401,19 @@ class _Follower:
 
     async def _open_link(self, stream: Stream, client: TopicClient) -> IncomingLink:
         context, subscription = self._context, self._subscription
+        header, offer = context.connections.kept(client.header), client.agreed
+        if "message_definition" not in header:
+            offer = replace(offer, definition="")
         link = IncomingLink(
             stream,
-            connection_info(stream, subscription.name, "i", self._uri, client.header),
-            client.agreed,
+            connection_info(stream, subscription.name, "i", self._uri, header),
+            offer,
             subscription.deliver,
             self._stir.set,
             context.clock.nanoseconds,
             context.loop_state.receive_buffer,
             max_bytes=context.limits.message_bytes,
+            budget=context.budget,
         )
         rest = await take_over(stream, link)
         subscription.link_opened(link)

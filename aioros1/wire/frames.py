@@ -14,6 +14,7 @@ announced, so a peer that announces a gigabyte and sends nothing costs nothing.
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from itertools import repeat
 from typing import Any, Protocol
 
@@ -72,7 +73,8 @@ class FrameReceiver:
     """Cuts a stream of bytes into frames for one ``sink``.
 
     ``scratch`` is the receive buffer. The connections of one event loop may share it,
-    because no other code runs between :meth:`buffer` and :meth:`received`.
+    because no other code runs between :meth:`buffer` and :meth:`received`. ``on_large(size)`` is
+    called when a large frame takes that much memory, with 0 once it is complete.
     """
 
     __slots__ = (
@@ -80,6 +82,7 @@ class FrameReceiver:
         "_large",
         "_largest",
         "_max_bytes",
+        "_on_large",
         "_scratch",
         "_sink",
         "_tail",
@@ -89,10 +92,18 @@ class FrameReceiver:
         "frames_received",
     )
 
-    def __init__(self, sink: FrameSink, scratch: memoryview, *, max_bytes: int) -> None:
+    def __init__(
+        self,
+        sink: FrameSink,
+        scratch: memoryview,
+        *,
+        max_bytes: int,
+        on_large: Callable[[int], object] | None = None,
+    ) -> None:
         self._sink = sink
         self._scratch = scratch
         self._max_bytes = max_bytes
+        self._on_large = on_large
         self._tail = b""
         self._large: bytearray | None = None
         self._view: memoryview | None = None
@@ -122,6 +133,8 @@ class FrameReceiver:
             grown[: self._filled] = large
             self._large = large = grown
             self._view = None
+            if self._on_large is not None:
+                self._on_large(len(grown))
         if self._view is None:
             self._view = memoryview(large)
         return self._view[self._filled :]
@@ -145,6 +158,8 @@ class FrameReceiver:
         if self._filled == self._wanted:
             whole = memoryview(self._large).toreadonly()
             self._large = self._view = None
+            if self._on_large is not None:
+                self._on_large(0)
             self._largest = max(self._largest, self._wanted)
             keep_memory(self._wanted)
             self.frames_received += 1
@@ -208,6 +223,8 @@ class FrameReceiver:
         self._large[:have] = memoryview(data)[start:]
         self._filled = have
         self._wanted = length
+        if self._on_large is not None:
+            self._on_large(len(self._large))
 
 
 def _uniform(data: bytes, batch: Any, limit: int) -> tuple[list[tuple[Any, int, int]], int]:

@@ -27,6 +27,11 @@ __all__ = ["Server", "ServiceClient", "ServiceOffer", "TopicClient", "TopicOffer
 
 _TRUE = frozenset({"1", "true", "True"})
 
+MAX_NAME = 1_024
+"""Characters of the name of a node, a topic, a service or a type."""
+
+_NAMES = ("callerid", "topic", "service", "type", "md5sum")
+
 
 @dataclass(frozen=True, slots=True)
 class TopicOffer:
@@ -96,6 +101,9 @@ class _Side(ABC):
             raise HandshakeError(self.peer, f"bad connection header: {error}") from None
         if header is None:
             return False
+        for name in _NAMES:
+            if len(header.get(name, "")) > MAX_NAME:
+                raise self._fail(f"the {name} has more than {MAX_NAME} characters")
         self.header = header
         self._check(header)
         return True

@@ -7,7 +7,8 @@ The value types, and how each is written:
 ``int``           ``<int>``, 32 bits signed: XML-RPC knows no more
 ``float``         ``<double>`` with all its digits, and ``nan``, ``inf``, ``-inf``
                   as the programs of ROS 1 write them
-``str``           ``<string>``; what XML cannot carry is refused
+``str``           ``<string>``; what XML cannot carry is refused, and carriage
+                  returns are written as they are
 ``bytes``         ``<base64>``
 ``datetime``      ``<dateTime.iso8601>``: naive, whole seconds
 ``list, tuple``   ``<array>``, always read as a list
@@ -26,26 +27,33 @@ from __future__ import annotations
 
 import re
 from binascii import b2a_base64
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from datetime import datetime
-from typing import Any
+from typing import Any, TypeVar
 
 from aioros1.wire.xmlrpc_plain import read_plain
-from aioros1.wire.xmlrpc_reader import UNSET, read_document
+from aioros1.wire.xmlrpc_reader import PIECE, UNSET, Document, reading_document
 from aioros1.wire.xmlrpc_scalars import INT_MAX, INT_MIN, XmlRpcError, brief
 
 __all__ = [
     "MAX_DEPTH",
     "MAX_VALUES",
+    "PIECE",
     "XmlRpcError",
     "XmlRpcFault",
+    "call_pieces",
     "carriable",
     "decode_call",
     "decode_response",
+    "decoding_call",
+    "decoding_response",
     "encode_call",
     "encode_fault",
     "encode_response",
+    "response_pieces",
 ]
+
+T = TypeVar("T")
 
 MAX_DEPTH = 100
 """How deeply arrays and structs may be nested, by default."""
@@ -68,10 +76,21 @@ class XmlRpcFault(Exception):
 
 # ---------------------------------------------------------------------------- encoding
 
-_Write = Callable[[str], None]
+# Writes a value into a list of strings. If it is a container, or long, it does so step by
+# step, and yields whenever the list is worth emptying.
+_Encoder = Callable[[Any, list[str], int], Iterator[None] | None]
+
+_MANY = 4096
+"""Strings in the list that are worth emptying: 2 ms of work."""
+
+_LONG = 512
+"""Characters of a text that is worth a step of its own."""
+
+_CHUNK = 48 << 10
+"""Characters or bytes converted in one step; a multiple of three, for base64."""
 
 # Characters that cannot be written as they are. Most strings have none.
-_SPECIAL = re.compile("[\x00-\x08\x0b-\x1f&<>\ud800-\udfff\ufffe\uffff]")
+_SPECIAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f&<>\ud800-\udfff\ufffe\uffff]")
 _ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -83,27 +102,45 @@ def encode_call(method: str, params: Sequence[Any], *, max_depth: int = MAX_DEPT
     string XML cannot carry and for too deep nesting. The text begins with the place:
     ``params[2]['gains'][0]: ...``.
     """
+    return b"".join(call_pieces(method, params, max_depth=max_depth))
+
+
+def call_pieces(
+    method: str, params: Sequence[Any], *, max_depth: int = MAX_DEPTH
+) -> Iterator[bytes]:
+    """The document of :func:`encode_call` in pieces, each of which takes some 2 ms to make.
+    Most documents are one piece."""
     out = [
         "<?xml version='1.0'?><methodCall><methodName>",
         _escape(method),
         "</methodName><params>",
     ]
-    write = out.append
     for index, value in enumerate(params):
-        write("<param>")
-        _encode_root(value, write, f"params[{index}]", max_depth)
-        write("</param>")
-    write("</params></methodCall>")
-    return "".join(out).encode()
+        out.append("<param>")
+        for _ in _encoding_root(value, out, f"params[{index}]", max_depth):
+            yield "".join(out).encode()
+            out.clear()
+        out.append("</param>")
+    out.append("</params></methodCall>")
+    yield "".join(out).encode()
 
 
 def encode_response(value: Any, *, what: str = "result", max_depth: int = MAX_DEPTH) -> bytes:
     """Make a ``<methodResponse>`` document with ``value``, which errors call ``what``.
     Raises as :func:`encode_call` does."""
+    return b"".join(response_pieces(value, what=what, max_depth=max_depth))
+
+
+def response_pieces(
+    value: Any, *, what: str = "result", max_depth: int = MAX_DEPTH
+) -> Iterator[bytes]:
+    """The document of :func:`encode_response` in pieces, as :func:`call_pieces` makes them."""
     out = ["<?xml version='1.0'?><methodResponse><params><param>"]
-    _encode_root(value, out.append, what, max_depth)
+    for _ in _encoding_root(value, out, what, max_depth):
+        yield "".join(out).encode()
+        out.clear()
     out.append("</param></params></methodResponse>")
-    return "".join(out).encode()
+    yield "".join(out).encode()
 
 
 def encode_fault(code: int, text: str) -> bytes:
@@ -111,7 +148,8 @@ def encode_fault(code: int, text: str) -> bytes:
     cannot carry become ``?``."""
     out = ["<?xml version='1.0'?><methodResponse><fault>"]
     fault = {"faultCode": code, "faultString": carriable(text)}
-    _encode_root(fault, out.append, "fault", MAX_DEPTH)
+    for _ in _encoding_root(fault, out, "fault", MAX_DEPTH):
+        pass
     out.append("</fault></methodResponse>")
     return "".join(out).encode()
 
@@ -125,15 +163,17 @@ class _UnencodableError(Exception):
         self.place: list[str] = []
 
 
-def _encode_root(value: Any, write: _Write, root: str, max_depth: int) -> None:
+def _encoding_root(value: Any, out: list[str], root: str, max_depth: int) -> Iterator[None]:
     try:
-        _encode(value, write, max_depth)
+        more = _encode(value, out, max_depth)
+        if more is not None:
+            yield from more
     except _UnencodableError as bad:
         place = root + "".join(reversed(bad.place))
         raise bad.kind(f"{place}: {bad.text}") from None
 
 
-def _encode(value: Any, write: _Write, depth: int) -> None:
+def _encode(value: Any, out: list[str], depth: int) -> Iterator[None] | None:
     encoder = _ENCODERS.get(type(value))
     if encoder is None:
         for base in _BASES:
@@ -143,68 +183,106 @@ def _encode(value: Any, write: _Write, depth: int) -> None:
         else:
             what = "None" if value is None else f"a {type(value).__name__}"
             raise _UnencodableError(TypeError, f"XML-RPC has no type for {what}: {brief(value)}")
-    encoder(value, write, depth)
+    return encoder(value, out, depth)
 
 
-def _encode_bool(value: bool, write: _Write, depth: int) -> None:
-    write("<value><boolean>1</boolean></value>" if value else "<value><boolean>0</boolean></value>")
+def _encode_bool(value: bool, out: list[str], depth: int) -> None:
+    out.append(f"<value><boolean>{1 if value else 0}</boolean></value>")
 
 
-def _encode_int(value: int, write: _Write, depth: int) -> None:
+def _encode_int(value: int, out: list[str], depth: int) -> None:
     if not INT_MIN <= value <= INT_MAX:
         raise _UnencodableError(OverflowError, f"an XML-RPC int has 32 bits: {brief(value)}")
-    write(f"<value><int>{int(value)}</int></value>")
+    out.append(f"<value><int>{int(value)}</int></value>")
 
 
-def _encode_float(value: float, write: _Write, depth: int) -> None:
-    write(f"<value><double>{float.__repr__(value)}</double></value>")
+def _encode_float(value: float, out: list[str], depth: int) -> None:
+    out.append(f"<value><double>{float.__repr__(value)}</double></value>")
 
 
-def _encode_str(value: str, write: _Write, depth: int) -> None:
-    write("<value><string>")
-    write(_escape(value))
-    write("</string></value>")
+def _encode_str(value: str, out: list[str], depth: int) -> Iterator[None] | None:
+    if len(value) > _LONG:
+        return _encode_long("string", value, _escape, out)
+    out += ("<value><string>", _escape(value), "</string></value>")
+    return None
 
 
-def _encode_bytes(value: bytes, write: _Write, depth: int) -> None:
-    write(f"<value><base64>{b2a_base64(value, newline=False).decode()}</base64></value>")
+def _encode_bytes(value: bytes, out: list[str], depth: int) -> Iterator[None]:
+    return _encode_long("base64", memoryview(value).cast("B"), _to_base64, out)
 
 
-def _encode_datetime(value: datetime, write: _Write, depth: int) -> None:
+def _encode_long(
+    tag: str, value: Any, convert: Callable[[Any], str], out: list[str]
+) -> Iterator[None]:
+    """Write a text or bytes in chunks."""
+    out.append(f"<value><{tag}>")
+    yield from _convert_long(value, convert, out)
+    out.append(f"</{tag}></value>")
+
+
+def _convert_long(value: Any, convert: Callable[[Any], str], out: list[str]) -> Iterator[None]:
+    for begin in range(0, len(value), _CHUNK):
+        try:
+            out.append(convert(value[begin : begin + _CHUNK]))
+        except _UnencodableError as bad:
+            bad.text = f"{bad.text.rpartition(': ')[0]}: {brief(value)}"  # of the whole value
+            raise
+        if len(value) > _CHUNK or len(out) > _MANY // 4:
+            yield
+
+
+def _to_base64(value: memoryview) -> str:
+    return b2a_base64(value, newline=False).decode()
+
+
+def _encode_datetime(value: datetime, out: list[str], depth: int) -> None:
     if value.tzinfo is not None:
         raise _UnencodableError(ValueError, f"XML-RPC has no time zones: {value!r}")
     text = value.isoformat("T", "seconds").replace("-", "")
-    write(f"<value><dateTime.iso8601>{text}</dateTime.iso8601></value>")
+    out.append(f"<value><dateTime.iso8601>{text}</dateTime.iso8601></value>")
 
 
-def _encode_list(value: Sequence[Any], write: _Write, depth: int) -> None:
+def _encode_list(value: Sequence[Any], out: list[str], depth: int) -> Iterator[None]:
     _go_deeper(depth)
-    write("<value><array><data>")
+    out.append("<value><array><data>")
     index = 0
     try:
         for item in value:
-            _encode(item, write, depth - 1)
+            more = _encode(item, out, depth - 1)
+            if more is not None:
+                yield from more
+            elif len(out) > _MANY:
+                yield
             index += 1
     except _UnencodableError as bad:
         bad.place.append(f"[{index}]")
         raise
-    write("</data></array></value>")
+    out.append("</data></array></value>")
 
 
-def _encode_dict(value: dict[str, Any], write: _Write, depth: int) -> None:
+def _encode_dict(value: dict[str, Any], out: list[str], depth: int) -> Iterator[None]:
     _go_deeper(depth)
-    write("<value><struct>")
+    out.append("<value><struct>")
     for key, item in value.items():
         if not isinstance(key, str):
             raise _UnencodableError(TypeError, f"the keys of a struct are strings: {brief(key)}")
         try:
-            write(f"<member><name>{_escape(str.__str__(key))}</name>")
-            _encode(item, write, depth - 1)
+            if len(key) > _LONG:
+                out.append("<member><name>")
+                yield from _convert_long(key, _escape, out)
+                out.append("</name>")
+            else:
+                out.append(f"<member><name>{_escape_name(str.__str__(key))}</name>")
+            more = _encode(item, out, depth - 1)
+            if more is not None:
+                yield from more
+            elif len(out) > _MANY:
+                yield
         except _UnencodableError as bad:
-            bad.place.append(f"[{key!r}]")
+            bad.place.append(f"[{brief(key)}]")
             raise
-        write("</member>")
-    write("</struct></value>")
+        out.append("</member>")
+    out.append("</struct></value>")
 
 
 def _go_deeper(depth: int) -> None:
@@ -225,13 +303,17 @@ def _escape(text: str) -> str:
         raise _UnencodableError(
             ValueError, f"XML cannot carry the character {bad[0]!r}: {brief(text)}"
         )
-    # XML parsers turn a bare carriage return into a line feed, but not a reference to one.
-    return (
-        text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
-    )
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
-_ENCODERS: dict[type, Callable[[Any, _Write, int], None]] = {
+def _escape_name(name: str) -> str:
+    """roscpp decodes no names, so they are written as they are as far as XML allows it."""
+    if _SPECIAL.search(name) is None:
+        return name
+    return _escape(name).replace("&gt;", ">").replace("]]>", "]]&gt;")
+
+
+_ENCODERS: dict[type, _Encoder] = {
     str: _encode_str,
     int: _encode_int,
     bool: _encode_bool,
@@ -261,7 +343,15 @@ def decode_call(
     plain = read_plain(data, "methodCall", max_depth, max_values)
     if plain is not None and plain[0] is not None:
         return plain[0], tuple(plain[1])
-    document = read_document(data, "methodCall", max_depth, max_values)
+    return _finish(decoding_call((data,), max_depth=max_depth, max_values=max_values))
+
+
+def decoding_call(
+    chunks: Sequence[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
+) -> Generator[None, None, tuple[str, tuple[Any, ...]]]:
+    """Read a document that came in ``chunks`` as :func:`decode_call` does, in steps of
+    :data:`PIECE` bytes, and return the same."""
+    document = yield from reading_document(chunks, "methodCall", max_depth, max_values)
     if document.method is None:
         raise XmlRpcError("the call has no methodName")
     return document.method, tuple(document.params)
@@ -279,7 +369,28 @@ def decode_response(
     plain = read_plain(data, "methodResponse", max_depth, max_values)
     if plain is not None and plain[0] is None and len(plain[1]) == 1:
         return plain[1][0]
-    document = read_document(data, "methodResponse", max_depth, max_values)
+    return _finish(decoding_response((data,), max_depth=max_depth, max_values=max_values))
+
+
+def decoding_response(
+    chunks: Sequence[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
+) -> Generator[None, None, Any]:
+    """Read a document that came in ``chunks`` as :func:`decode_response` does, in steps of
+    :data:`PIECE` bytes, and return the same."""
+    document = yield from reading_document(chunks, "methodResponse", max_depth, max_values)
+    return _value_of(document)
+
+
+def _finish(steps: Generator[None, None, T]) -> T:
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            result: T = end.value
+            return result
+
+
+def _value_of(document: Document) -> Any:
     fault = document.fault
     if fault is not UNSET:
         if not isinstance(fault, dict):

@@ -6,12 +6,14 @@ the number of values is bounded.
 
 from __future__ import annotations
 
+from collections.abc import Generator, Iterator, Sequence
 from typing import Any, NoReturn
 from xml.parsers import expat
 
+from aioros1.wire.carriage_returns import CarriageReturns
 from aioros1.wire.xmlrpc_scalars import BLANK, SCALARS, XmlRpcError, brief
 
-__all__ = ["UNSET", "Document", "read_document"]
+__all__ = ["PIECE", "UNSET", "Document", "reading_document"]
 
 UNSET: Any = object()
 """No fault."""
@@ -19,10 +21,11 @@ UNSET: Any = object()
 _PENDING: Any = object()
 
 
-def read_document(data: bytes, root: str, max_depth: int, max_values: int) -> Document:
-    """Read what is in ``<root>``. Raises :class:`XmlRpcError`."""
-    if not data:
-        raise XmlRpcError("the document is empty")
+def reading_document(
+    chunks: Sequence[bytes], root: str, max_depth: int, max_values: int
+) -> Generator[None, None, Document]:
+    """Read what is in ``<root>``, in steps of :data:`PIECE` bytes, and return it. Raises
+    :class:`XmlRpcError`."""
     decoder = Document(root, max_depth, max_values)
     parser = expat.ParserCreate()
     parser.buffer_text = True
@@ -32,7 +35,7 @@ def read_document(data: bytes, root: str, max_depth: int, max_values: int) -> Do
     parser.StartDoctypeDeclHandler = _refuse_doctype
     parser.XmlDeclHandler = _refuse_encoding
     try:
-        _feed(parser, data)
+        yield from _feed(parser, chunks)
     except XmlRpcError:
         raise
     except (expat.ExpatError, ValueError) as error:
@@ -42,17 +45,32 @@ def read_document(data: bytes, root: str, max_depth: int, max_values: int) -> Do
 
 # expat reads a tag as a whole, and its attributes take 25 times their size in memory, so a
 # longer tag is refused. (expat looks for the end of a tag each time the data has doubled.)
-_PIECE = 64 << 10
 _LONGEST_TAG = 256 << 10
 
+PIECE = 16 << 10
+"""Bytes read in one step. If they are nothing but values, that takes some 15 ms."""
 
-def _feed(parser: expat.XMLParserType, data: bytes) -> None:
-    view = memoryview(data)
-    for end in range(_PIECE, len(data), _PIECE):
-        parser.Parse(view[end - _PIECE : end], False)
-        if end - parser.CurrentByteIndex > _LONGEST_TAG:
-            raise XmlRpcError(f"a tag or a comment of more than {_LONGEST_TAG} bytes")
-    parser.Parse(view[(len(data) - 1) // _PIECE * _PIECE :], True)
+
+def _feed(parser: expat.XMLParserType, chunks: Sequence[bytes]) -> Iterator[None]:
+    returns = None
+    if any(b"\r" in chunk for chunk in chunks) and not any(b"\0" in chunk for chunk in chunks):
+        returns = CarriageReturns()  # not in UTF-16
+    size = 0
+    for chunk in chunks:
+        view = memoryview(chunk)
+        for begin in range(0, len(view), PIECE):
+            if size:
+                if size - parser.CurrentByteIndex > _LONGEST_TAG:
+                    raise XmlRpcError(f"a tag or a comment of more than {_LONGEST_TAG} bytes")
+                yield
+            piece: bytes | memoryview = view[begin : begin + PIECE]
+            if returns is not None:
+                piece = returns.keep(bytes(piece))  # up to five times as long
+            parser.Parse(piece, False)
+            size += len(piece)
+    if not size:
+        raise XmlRpcError("the document is empty")
+    parser.Parse(b"", True)
 
 
 def _refuse_doctype(*_: object) -> NoReturn:

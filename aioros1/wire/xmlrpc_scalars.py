@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+import reprlib
 from binascii import Error as Base64Error
 from binascii import a2b_base64
 from collections.abc import Callable
 from datetime import datetime
+from itertools import islice
 from typing import Any, NoReturn
 
 from aioros1._public import public
@@ -25,9 +27,34 @@ class XmlRpcError(ValueError):
 
 
 def brief(value: object) -> str:
-    text = repr(value)
+    """The beginning of ``repr(value)``, however large the value is."""
+    text = _BRIEF.repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
+
+class _Brief(reprlib.Repr):
+    def repr_bytes(self, value: bytes, level: int) -> str:
+        return repr(value[:60])
+
+    repr_bytearray = repr_bytes
+
+    def repr_str(self, value: str, level: int) -> str:
+        return repr(value[:60])
+
+    def repr_dict(self, value: dict[Any, Any], level: int) -> str:
+        if level <= 0:
+            return "{...}"
+        items = islice(value.items(), 20)
+        texts = (f"{brief(key)}: {self.repr1(item, level - 1)}" for key, item in items)
+        return f"{{{', '.join(texts)}}}"
+
+
+_BRIEF = _Brief()
+_BRIEF.maxlist = _BRIEF.maxtuple = 30
+
+
+_LONGEST_DOUBLE = 10_000  # characters; exact ones have up to 800
+_WHITE = b" \t\n\r\x0b\x0c"
 
 _INTEGER = re.compile(r"[+-]?[0-9]+")
 _DATETIME = re.compile(r"([0-9]{4})-?([0-9]{2})-?([0-9]{2})T([0-9]{2}):([0-9]{2}):([0-9]{2})")
@@ -57,7 +84,7 @@ def _to_bool(text: str) -> bool:
 
 def _to_float(text: str) -> float:
     try:
-        if "_" not in text:
+        if "_" not in text and len(text) <= _LONGEST_DOUBLE:
             return float(text)
     except ValueError:
         pass
@@ -66,7 +93,7 @@ def _to_float(text: str) -> float:
 
 def _to_bytes(text: str) -> bytes:
     try:
-        return a2b_base64("".join(text.split()), strict_mode=True)
+        return a2b_base64(text.encode("ascii").translate(None, _WHITE), strict_mode=True)
     except (Base64Error, ValueError):
         raise ValueError(f"not base64: {brief(text)}") from None
 

@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, TypeVar
 
 from aioros1._public import public
 from aioros1.errors import PeerError, PeerUnreachable
-from aioros1.xmlrpc.client import XmlRpcClient, as_it_is, call_triple
+from aioros1.xmlrpc.client import SHORT_ANSWER, XmlRpcClient, as_it_is, call_triple
 from aioros1.xmlrpc.master_proxy import TopicType, topic_types
 
 __all__ = [
@@ -146,17 +146,20 @@ class NodeProxy:
         *params: Any,
         bare: bool = False,
         read: Callable[[Any], T] = as_it_is,
+        max_bytes: int | None = None,
     ) -> T:
         """Call any method of the node, with the caller id as the first parameter.
 
         ``read`` converts the value in the node's answer to what this returns; with ``bare``
-        the answer need not be ``[code, status, value]``.
+        the answer need not be ``[code, status, value]``. It has at most ``max_bytes``, if that
+        is less than ``limits.xmlrpc_bytes``.
         """
         params = (self._caller_id, *params)
         return await call_triple(
             *(self._client, self.uri, method, params, PeerError, _unreachable),
             bare=bare,
             read=read,
+            max_bytes=max_bytes,
         )
 
     async def get_bus_stats(self) -> BusStats:
@@ -196,7 +199,8 @@ class NodeProxy:
 
     async def request_topic(self, topic: str, protocols: Sequence[Sequence[Any]]) -> list[Any]:
         """Ask a publisher how to connect; returns its choice of ``protocols``, with parameters."""
-        return await self.call("requestTopic", topic, protocols, read=_list)
+        # Anybody can name publishers, many at once.
+        return await self.call("requestTopic", topic, protocols, read=_list, max_bytes=SHORT_ANSWER)
 
     async def ping(self) -> float:
         """Seconds that one round trip to the node takes."""

@@ -11,26 +11,36 @@ import contextlib
 import inspect
 import logging
 import zlib
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from aiohttp import web
 
+from aioros1.net.accepting import ListeningSocket
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
+from aioros1.net.budget import FREE, Budget, Share
 from aioros1.net.hosts import bind_sockets
+from aioros1.net.loop_state import loop_state
 from aioros1.net.rate_limit import RateLimit
+from aioros1.net.turns import Turn
 from aioros1.options import Limits
-from aioros1.waiting import Waiters
+from aioros1.waiting import Mutex, Waiters
+from aioros1.wire.carriage_returns import with_references
 from aioros1.wire.xmlrpc import (
+    PIECE,
     XmlRpcError,
     XmlRpcFault,
     decode_call,
+    decoding_call,
     encode_fault,
-    encode_response,
+    response_pieces,
 )
-from aioros1.xmlrpc.server_http import Answer, Connection, Quiet, plain
+from aioros1.wire.xmlrpc_scalars import brief
+from aioros1.wire.xmlrpc_size import Size
+from aioros1.xmlrpc.server_http import Answer, Connection, LongDocument, Quiet, plain
 
 __all__ = ["Method", "Reply", "XmlRpcServer"]
 
@@ -57,11 +67,11 @@ FAULT_APPLICATION = -32500
 
 _LOG = logging.getLogger("aioros1.xmlrpc")
 _PATHS = frozenset({"/", "/RPC2"})
-_YIELD_EVERY = 32
 
-_ACCEPTING = 3
-"""Iterations of the event loop until an accepted connection has its protocol, at most: the
-task of asyncio that makes the transport, and a callback of that."""
+_Afters = list[Callable[[], object]]
+
+# Bytes of gzip data that are unpacked at a time.
+_INFLATED = 64 << 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,10 +112,15 @@ class XmlRpcServer:
         self._rate: RateLimit | None = None
         if limits.requests_per_second is not None:
             self._rate = RateLimit(limits.requests_per_second, limits.requests_burst)
+        self.budget = Budget(limits.bytes_in_flight)
+        """What requests that arrive and answers that are not read hold together."""
+        # Values take several times as much memory as their document while it is read, so one
+        # large one is read at a time.
+        self._reading = Mutex()
         self.delayed = 0
         """Requests that had to wait so far, because their host had sent too many."""
         self._http: web.Server | None = None
-        self._listeners: list[asyncio.Server] = []
+        self._listeners: list[ListeningSocket] = []
         self._connections: set[Connection] = set()
         self._connection_ended = Waiters()
         # The requests in progress, and the connections that have had one.
@@ -134,11 +149,12 @@ class XmlRpcServer:
         self._sweep()
         quiet: Any = Quiet(self._log)
 
-        def connection() -> Connection:
+        def connection(host: str) -> Connection:
             return Connection(
                 self._connections,
                 self._connection_ended,
                 self.admission,
+                host,
                 http,
                 loop=loop,
                 keepalive_timeout=KEEP_ALIVE,
@@ -148,20 +164,10 @@ class XmlRpcServer:
                 logger=quiet,
             )
 
-        try:
-            for sock in sockets:
-                # Not in one step with serving, which lets other tasks run: if this one was
-                # cancelled then, nobody would have the server to close it.
-                listener = await loop.create_server(
-                    connection, sock=sock, backlog=512, start_serving=False
-                )
-                self._listeners.append(listener)
-                await listener.start_serving()
-        except BaseException:
-            await self.close()
-            for sock in sockets:
-                sock.close()
-            raise
+        self._listeners = [
+            ListeningSocket(sock, connection, admission=self.admission, log=self._log)
+            for sock in sockets
+        ]
 
     async def close(self, *, timeout: float = 1.0) -> None:
         """Stop listening, give requests in progress ``timeout`` seconds to finish, and close
@@ -176,10 +182,8 @@ class XmlRpcServer:
             return
         if self._sweeper is not None:
             self._sweeper.cancel()
-        # asyncio tells a protocol of a connection it has just accepted some iterations of the
-        # event loop later. Until then nobody could close that connection.
-        for _ in range(_ACCEPTING):
-            await asyncio.sleep(0)
+        for listener in listeners:
+            await listener.wait_closed()
         http.pre_shutdown()
         # aiohttp loses track of the tasks of a connection whose peer has gone, so they are
         # ended here.
@@ -223,22 +227,39 @@ class XmlRpcServer:
             refusal = self._refuse(request)
             if refusal is not None:
                 return refusal
-            content = request.content
-            if content.is_eof() and "Content-Encoding" not in request.headers:
-                body: bytes | web.Response = content.read_nowait()  # it is all there already
-            else:
-                try:
-                    async with asyncio.timeout(self._limits.xmlrpc_timeout):
-                        body = await self._read(request)
-                except TimeoutError:
-                    return plain(408, "the request did not arrive in time", close=True)
-            if not isinstance(body, bytes):
-                return body
-            document, afters = await self._answer(body, connection.host)
-            return await self._send(request, document, afters)
+            share = self.budget.share(partial(_cut, connection, task))
+            try:
+                return await self._serve(request, connection, share)
+            except asyncio.CancelledError:
+                if not share.is_cut or task.uncancel():
+                    raise
+                raise ConnectionResetError("it held too much for too long") from None
+            finally:
+                share.close()
         finally:
             connection.request_ends()
             self._running.discard(task)
+
+    async def _serve(
+        self, request: web.BaseRequest, connection: Connection, share: Share
+    ) -> web.StreamResponse:
+        content = request.content
+        if content.is_eof() and "Content-Encoding" not in request.headers:
+            body = [content.read_nowait()]  # it is all there already
+        else:
+            try:
+                async with asyncio.timeout(self._limits.xmlrpc_timeout):
+                    read = await self._read(request, share)
+            except TimeoutError:
+                return plain(408, "the request did not arrive in time", close=True)
+            if isinstance(read, web.Response):
+                return read
+            body = read
+        turn = await loop_state().turns.take()
+        try:
+            return await self._answer(request, connection.host, body, share, turn)
+        finally:
+            turn.end()
 
     async def _take_turn(
         self, rate: RateLimit, connection: Connection, task: asyncio.Task[Any]
@@ -250,7 +271,6 @@ class XmlRpcServer:
         never has more requests waiting than connections.
         """
         host = connection.host
-        assert host is not None
         delay = rate.take(host, asyncio.get_running_loop().time())
         if not delay:
             return
@@ -285,37 +305,92 @@ class XmlRpcServer:
     def _too_large(self) -> web.Response:
         return plain(413, f"more than {self._limits.xmlrpc_bytes} bytes", close=True)
 
-    async def _read(self, request: web.BaseRequest) -> bytes | web.Response:
+    async def _read(self, request: web.BaseRequest, share: Share) -> list[bytes] | web.Response:
         """Return the body, decompressed if needed, or the answer that refuses it."""
         if request.headers.get("Expect", "").lower() == "100-continue":
             await request.writer.write(b"HTTP/1.1 100 Continue\r\n\r\n")
             request.writer.output_size = 0
         coding = request.headers.get("Content-Encoding", "identity").strip().lower()
         if coding not in ("", "identity", "gzip", "x-gzip"):
-            return plain(415, f"unknown Content-Encoding: {coding}", close=True)
-        inflate = zlib.decompressobj(wbits=31) if coding.endswith("gzip") else None
-        room = self._limits.xmlrpc_bytes
+            return plain(415, f"unknown Content-Encoding: {coding[:80]}", close=True)
+        is_zipped = coding.endswith("gzip")
+        inflate = zlib.decompressobj(wbits=31)
+        limit = self._limits.xmlrpc_bytes
+        size = 0
         chunks: list[bytes] = []
         content = request.content
-        while chunk := await content.readany():
-            if inflate is not None:
-                try:
-                    chunk = inflate.decompress(chunk, room + 1)  # no more, whatever it expands to
-                except zlib.error as error:
-                    return plain(400, f"not gzip: {error}", close=True)
-            room -= len(chunk)
-            if room < 0:
-                return self._too_large()
-            chunks.append(chunk)
-        if inflate is not None and not inflate.eof:
+        while came := await content.readany():
+            for chunk in _inflated(inflate, came) if is_zipped else (came,):
+                if chunk is None:
+                    return plain(400, "not gzip, or more than that", close=True)
+                size += len(chunk)
+                if size > limit:
+                    return self._too_large()
+                share.grow_to(size)
+                if share.is_cut:
+                    raise ConnectionResetError("it held too much for too long")
+                chunks.append(chunk)
+                if is_zipped:
+                    await asyncio.sleep(0)
+        if is_zipped and not inflate.eof:
             return plain(400, "the gzip data ends early", close=True)
-        return chunks[0] if len(chunks) == 1 else b"".join(chunks)
+        return chunks
+
+    # ------------------------------------------------------------------ one call
+
+    async def _answer(
+        self,
+        request: web.BaseRequest,
+        host: str,
+        body: list[bytes],
+        share: Share,
+        turn: Turn,
+    ) -> web.StreamResponse:
+        afters: _Afters = []
+        try:
+            name, params = await self._decode(body, turn)
+        except XmlRpcError as error:
+            return await self._send(request, encode_fault(FAULT_PARSE, str(error)), afters)
+        try:
+            if name == "system.multicall":
+                if self._rate is not None and host and params and isinstance(params[0], list):
+                    # Each call in it is a request; one of them was counted before.
+                    now = asyncio.get_running_loop().time()
+                    self._rate.take(host, now, max(len(params[0]) - 1, 0))
+                value: Any = await self._multicall(params, afters, turn)
+            else:
+                value = await self._call(name, params, afters, turn)
+            body.clear()
+            pieces = self._pieces(request, value)
+            document = next(pieces)
+            more = next(pieces, None)
+            if more is None:
+                share.grow_to(len(document))
+                return await self._send(request, document, afters)
+            # Count first, then write while the peer reads: what a peer does not read takes no
+            # memory. What a method returns does not change.
+            length = len(document) + len(more) + await turn.run(_lengths(pieces))
+            pieces = self._pieces(request, value)
+            # Nobody else may hold the value any more.
+            share.grow_to(length)
+            return await self._send(request, LongDocument(length, pieces, turn), afters)
+        except XmlRpcFault as fault:
+            return await self._send(request, encode_fault(fault.code, fault.text), afters)
+        except (TypeError, ValueError, OverflowError) as error:
+            self._log.error("the result of %s cannot be sent: %s", brief(name), error)
+            fault_text = f"{brief(name)}: {error}"
+            return await self._send(request, encode_fault(FAULT_APPLICATION, fault_text), afters)
+
+    def _pieces(self, request: web.BaseRequest, value: Any) -> Iterator[bytes]:
+        """The answer with ``value``, in pieces."""
+        pieces = response_pieces(value, max_depth=self._limits.xmlrpc_depth)
+        return map(with_references, pieces) if _is_python(request) else pieces
 
     async def _send(
-        self, request: web.BaseRequest, document: bytes, afters: list[Callable[[], object]]
+        self, request: web.BaseRequest, document: bytes | LongDocument, afters: _Afters
     ) -> Answer:
         answer = Answer(document, patience=self._limits.xmlrpc_timeout, flush=bool(afters))
-        if not afters:
+        if not afters and isinstance(document, bytes) and len(document) <= FREE:
             return answer
         try:
             await answer.prepare(request)
@@ -327,42 +402,22 @@ class XmlRpcServer:
                     self._log.exception("a consequence of an XML-RPC request failed")
         return answer
 
-    # ------------------------------------------------------------------ one call
+    async def _decode(self, body: list[bytes], turn: Turn) -> tuple[str, tuple[Any, ...]]:
+        """Raises :class:`.XmlRpcError`, and leaves nothing of a large ``body``."""
+        depth, values = self._limits.xmlrpc_depth, self._limits.xmlrpc_values
+        if len(body) == 1 and len(body[0]) <= PIECE:
+            return decode_call(body[0], max_depth=depth, max_values=values)
+        if self._reading.is_held:
+            turn.end()
+        async with self._reading:
+            await turn.next()
+            return await turn.run(decoding_call(body, max_depth=depth, max_values=values))
 
-    async def _answer(
-        self, body: bytes, host: str | None
-    ) -> tuple[bytes, list[Callable[[], object]]]:
-        afters: list[Callable[[], object]] = []
-        limits = self._limits
-        try:
-            name, params = decode_call(
-                body, max_depth=limits.xmlrpc_depth, max_values=limits.xmlrpc_values
-            )
-        except XmlRpcError as error:
-            return encode_fault(FAULT_PARSE, str(error)), afters
-        try:
-            if name == "system.multicall":
-                if self._rate is not None and host and params and isinstance(params[0], list):
-                    # Each call in it is a request; one of them was counted before.
-                    now = asyncio.get_running_loop().time()
-                    self._rate.take(host, now, max(len(params[0]) - 1, 0))
-                value = await self._multicall(params, afters)
-            else:
-                value = await self._call(name, params, afters)
-            return encode_response(value, max_depth=limits.xmlrpc_depth), afters
-        except XmlRpcFault as fault:
-            return encode_fault(fault.code, fault.text), afters
-        except (TypeError, ValueError, OverflowError) as error:
-            self._log.error("the result of %s cannot be sent: %s", name, error)
-            return encode_fault(FAULT_APPLICATION, f"{name}: {error}"), afters
-
-    async def _call(
-        self, name: str, params: tuple[Any, ...], afters: list[Callable[[], object]]
-    ) -> Any:
+    async def _call(self, name: str, params: tuple[Any, ...], afters: _Afters, turn: Turn) -> Any:
         """Return what the method returned. Raises only :class:`XmlRpcFault`."""
         entry = self._methods.get(name)
         if entry is None:
-            raise XmlRpcFault(FAULT_NO_METHOD, f'method "{name}" is not supported')
+            raise XmlRpcFault(FAULT_NO_METHOD, f'method "{name[:200]}" is not supported')
         method, least, most = entry
         if not least <= len(params) <= most:
             if not params:
@@ -372,6 +427,7 @@ class XmlRpcServer:
             value = method(*params)
             if isinstance(value, Awaitable):
                 value = await value
+                turn.resume()
         except XmlRpcFault:
             raise
         except Exception as error:
@@ -382,21 +438,63 @@ class XmlRpcServer:
             return value.value
         return value
 
-    async def _multicall(
-        self, params: tuple[Any, ...], afters: list[Callable[[], object]]
-    ) -> list[Any]:
-        """Many calls in one request; each has its own result or fault."""
+    async def _multicall(self, params: tuple[Any, ...], afters: _Afters, turn: Turn) -> list[Any]:
+        """Many calls in one request; each has its own result or fault.
+
+        The results have to fit an answer together, as those of a single call.
+        """
         if len(params) != 1 or not isinstance(params[0], list):
             raise XmlRpcFault(FAULT_PARAMS, "system.multicall takes one array")
+        limits = self._limits
         results: list[Any] = []
-        for count, call in enumerate(params[0], 1):
+        too_large = XmlRpcFault(FAULT_APPLICATION, "the answer would be too large")
+        size = Size()
+        for call in params[0]:
             try:
-                results.append([await self._call(*_multicall_entry(call), afters)])
+                if size.exceeds(limits.xmlrpc_bytes, limits.xmlrpc_values):
+                    raise too_large
+                result = await self._call(*_multicall_entry(call), afters, turn)
+                await turn.run(size.adding(result))
+                if size.exceeds(limits.xmlrpc_bytes, limits.xmlrpc_values):
+                    raise too_large
+                results.append([result])
             except XmlRpcFault as fault:
                 results.append({"faultCode": fault.code, "faultString": fault.text})
-            if count % _YIELD_EVERY == 0:
-                await asyncio.sleep(0)
+            if turn.is_over:
+                await turn.next()
         return results
+
+
+def _is_python(request: web.BaseRequest) -> bool:
+    """Whether the client is Python's, as that of rospy and of the tools is."""
+    return request.headers.get("User-Agent", "").startswith(("Python-xmlrpc/", "xmlrpclib.py/"))
+
+
+def _cut(connection: Connection, task: asyncio.Task[Any]) -> None:
+    connection.abort()
+    task.cancel()
+
+
+def _inflated(inflate: Any, data: bytes) -> Iterator[bytes | None]:
+    """Unpack ``data`` in small pieces; None if that is not possible, or if it is the last."""
+    try:
+        while data:
+            if inflate.eof:
+                yield None  # whatever comes behind the end
+                return
+            piece = inflate.decompress(data, _INFLATED)
+            data = inflate.unconsumed_tail or inflate.unused_data
+            yield piece
+    except zlib.error:
+        yield None
+
+
+def _lengths(pieces: Iterator[bytes]) -> Generator[None, None, int]:
+    length = 0
+    for piece in pieces:
+        length += len(piece)
+        yield
+    return length
 
 
 async def _cancel(tasks: set[asyncio.Task[Any]]) -> None:

@@ -10,32 +10,55 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
-from typing import TYPE_CHECKING, Any, cast
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from aiohttp import web
 
+from aioros1.net.ending import shut_down
+
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from aiohttp.abc import AbstractStreamWriter
     from aiohttp.typedefs import LooseHeaders
 
     from aioros1.net.admission import Admission
+    from aioros1.net.turns import Turn
     from aioros1.waiting import Waiters
 
-__all__ = ["Answer", "Connection", "Quiet", "plain"]
+__all__ = ["Answer", "Connection", "LongDocument", "Quiet", "plain"]
 
 # Bytes that a transport may buffer, of one answer or of many, before the writer waits.
 _SMALL = 48 << 10
 
 
-class Answer(web.StreamResponse):
-    """A ``200 OK`` with an XML document, written at once and by hand.
+# Bytes of a long document that are written at a time.
+_BLOCK = 64 << 10
 
-    ``patience`` is how many seconds the peer may take to read it; aiohttp would wait forever
+
+@dataclass(frozen=True, slots=True)
+class LongDocument:
+    """A document that is made while it is written."""
+
+    length: int
+    """All its bytes."""
+    pieces: Iterator[bytes]
+    turn: Turn
+    """Of the request that it answers."""
+
+
+class Answer(web.StreamResponse):
+    """A ``200 OK`` with an XML document, written by hand, and at once unless it is long.
+
+    ``patience`` is how many seconds the peer may read nothing; aiohttp would wait forever
     for a peer that requests megabytes and reads nothing. With ``flush``, the kernel has every
     byte of the answer when :meth:`prepare` returns.
     """
 
-    def __init__(self, document: bytes, *, patience: float, flush: bool = False) -> None:
+    def __init__(
+        self, document: bytes | LongDocument, *, patience: float, flush: bool = False
+    ) -> None:
         super().__init__()
         self._document = document
         self._patience = patience
@@ -59,19 +82,48 @@ class Answer(web.StreamResponse):
         document = self._document
         transport.write(
             b"HTTP/1.1 200 OK\r\nContent-Type: text/xml\r\nContent-Length: %d\r\n%s\r\n%s"
-            % (len(document), b"" if keep else b"Connection: close\r\n", document)
+            % (
+                document.length if isinstance(document, LongDocument) else len(document),
+                b"" if keep else b"Connection: close\r\n",
+                b"" if isinstance(document, LongDocument) else document,
+            )
         )
+        if isinstance(document, LongDocument):
+            await self._write_long(document, request, transport)
+        if self._flush:
+            # From now on drain() waits until the kernel has taken every byte.
+            transport.set_write_buffer_limits(high=0)
         if self._flush or transport.get_write_buffer_size() > _SMALL:
-            try:
-                async with asyncio.timeout(self._patience):
-                    if self._flush:
-                        # From now on drain() waits until the kernel has taken every byte.
-                        transport.set_write_buffer_limits(high=0)
-                    await request.writer.drain()
-            except TimeoutError:
-                transport.abort()
-                raise ConnectionResetError("the client reads no answer") from None
+            await self._drain(request, transport)
         return None
+
+    async def _write_long(
+        self, document: LongDocument, request: web.BaseRequest, transport: asyncio.Transport
+    ) -> None:
+        turn = document.turn
+        block: list[bytes] = []
+        size = 0
+        for piece in document.pieces:
+            block.append(piece)
+            size += len(piece)
+            if size >= _BLOCK:
+                transport.write(b"".join(block))
+                block.clear()
+                size = 0
+                if transport.get_write_buffer_size() > _SMALL:
+                    await self._drain(request, transport)
+                    turn.resume()
+            if turn.is_over:
+                await turn.next()
+        transport.write(b"".join(block))
+
+    async def _drain(self, request: web.BaseRequest, transport: asyncio.Transport) -> None:
+        try:
+            async with asyncio.timeout(self._patience):
+                await request.writer.drain()
+        except TimeoutError:
+            transport.abort()
+            raise ConnectionResetError("the client reads no answer") from None
 
     async def write_eof(self, data: bytes = b"") -> None:
         """Everything was written by :meth:`prepare`."""
@@ -92,17 +144,26 @@ class Connection(web.RequestHandler):
 
     aiohttp waits for the rest of a request line as long as for the next request.
     ``connections`` holds those that are open, and ``ended`` wakes whoever waits for the end
-    of one. A connection that ``admission`` refuses is not among them, and is closed before
-    anything is read from it.
+    of one. ``admission`` has let it in as ``host``.
     """
 
-    __slots__ = ("_admission", "_busy", "_connections", "_ended", "_gone", "_waits_since", "host")
+    __slots__ = (
+        "_admission",
+        "_busy",
+        "_connection",
+        "_connections",
+        "_ended",
+        "_gone",
+        "_waits_since",
+        "host",
+    )
 
     def __init__(
         self,
         connections: set[Connection],
         ended: Waiters,
         admission: Admission,
+        host: str,
         manager: web.Server,
         **options: Any,
     ) -> None:
@@ -110,23 +171,21 @@ class Connection(web.RequestHandler):
         self._connections = connections
         self._ended = ended
         self._admission = admission
-        self.host: str | None = None
-        """The host it comes from; ``None`` before it is admitted."""
+        self.host = host
+        """The host it comes from, as ``admission`` has named it."""
+        self._connection: asyncio.BaseTransport | None = None  # aiohttp forgets it early
         self._gone: asyncio.Future[bool] | None = None
         self._busy = False
         self._waits_since: float | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        self.host = self._admission.enter(transport)
-        if self.host is None:
-            cast("asyncio.Transport", transport).abort()
-            return
+        self._connection = transport
         self._connections.add(self)
         super().connection_made(transport)
 
     def connection_lost(self, exc: BaseException | None) -> None:
-        if self.host is None:
-            return
+        shut_down(self._connection)
+        self._connection = None
         super().connection_lost(exc)
         self._connections.discard(self)
         self._ended.wake()

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from soak.scenario import Scenario
 from soak.scenarios import (
+    chaos,
     churn,
     cut_connections,
     lossless,
     many_nodes,
     master_restarts,
+    parameters,
     stalled_peers,
     two_loops,
 )
@@ -16,12 +18,14 @@ from soak.scenarios import (
 __all__ = ["SCENARIOS"]
 
 MODULES = (
+    chaos,
     master_restarts,
     cut_connections,
     lossless,
     many_nodes,
     stalled_peers,
     two_loops,
+    parameters,
     churn,
 )
 SCENARIOS: dict[str, Scenario] = {module.SCENARIO.name: module.SCENARIO for module in MODULES}

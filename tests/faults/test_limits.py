@@ -20,6 +20,15 @@ pytestmark = pytest.mark.skipif(
 )
 
 HERE, ELSEWHERE = "127.0.0.1", "127.0.0.2"
+
+
+@pytest.fixture
+def each_address_is_a_host(monkeypatch):
+    """As if the loopback addresses were different machines."""
+    monkeypatch.setattr("aioros1.net.admission.host_of", str)
+    monkeypatch.setattr("aioros1.net.admission.is_local", lambda address: False)
+
+
 GET_PID = (
     b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: %d\r\n\r\n%s"
     % (len(call := b"<methodCall><methodName>getPid</methodName><params><param><value>/c</value>"
@@ -118,7 +127,7 @@ async def test_peers_past_tcp_are_of_this_host_and_allowed(make_node, transport)
 # how many
 
 
-async def test_one_host_cannot_take_all_connections_of_a_node(make_node):
+async def test_one_host_cannot_take_all_connections_of_a_node(make_node, each_address_is_a_host):
     node = await make_node("talker", limits=aioros1.Limits(connections_per_host=2))
     tcpros, xmlrpc = ports(node)
     async with node.advertise("chatter", String), contextlib.AsyncExitStack() as stack:
@@ -154,7 +163,9 @@ async def test_a_master_with_all_its_connections_taken(caplog):
 # how often
 
 
-async def test_a_host_that_asks_a_master_too_often_delays_only_itself(make_node):
+async def test_a_host_that_asks_a_master_too_often_delays_only_itself(
+    make_node, each_address_is_a_host
+):
     limits = aioros1.Limits(requests_per_second=0.001, requests_burst=200)
     async with (
         aioros1.Master("localhost", port=0, rosout=False, limits=limits) as master,
@@ -178,7 +189,7 @@ async def test_a_node_that_has_to_wait_is_registered_all_the_same(make_node):
         assert master.stats.requests_delayed > 0
 
 
-async def test_a_node_has_the_same_limits_for_its_slave_api(make_node):
+async def test_a_node_has_the_same_limits_for_its_slave_api(make_node, each_address_is_a_host):
     limits = aioros1.Limits(requests_per_second=0.001, requests_burst=3)
     node = await make_node("node", limits=limits)
     _, xmlrpc = ports(node)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
+import socket
 import struct
 import tracemalloc
 
@@ -428,3 +430,21 @@ async def test_a_publisher_that_is_announced_again_at_once_is_not_heard_twice(fa
     for _ in range(20):
         await ask(node, "getPid")
     assert sub.queued == 0
+
+
+@pytest.mark.parametrize("messages", [0, 1], ids=["header", "header and message"])
+async def test_a_publisher_that_replies_and_resets_at_once_is_connected_again(
+    fake, sub, bystander, messages
+):
+    for _ in range(3):
+        wire = await fake.greeted()
+        sock = wire.writer.get_extra_info("socket")
+        with socket.socket(fileno=os.dup(sock.fileno())) as own:
+            # Reply and reset arrive together: the subscriber sees both in one go.
+            own.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            own.send(header(STRING_REPLY) + string("lost") * messages)
+            wire.abort()
+    wire = await fake.subscribed()
+    await wire.send(string("here"))
+    while (await sub.get(timeout=30)).data != "here":
+        pass

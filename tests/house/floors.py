@@ -25,6 +25,7 @@ __all__ = [
 VALUES = (
     "_public",
     "_version",
+    "hints",
     "errors",
     "time",
     "names",

@@ -202,3 +202,21 @@ def test_nils_are_found() -> None:
     assert holds_nil(None)
     assert holds_nil({"a": [1, {"b": None}]})
     assert not holds_nil({"a": [1, {"b": {}}], "": 0})
+
+
+def test_the_whole_tree_is_bounded_and_what_is_replaced_makes_room() -> None:
+    tree = ParameterTree(max_bytes=10_000, max_values=100)
+    for _ in range(20):
+        tree.set("/text", "x" * 8_000)
+    with pytest.raises(ValueError, match="more than 10000 bytes of parameters"):
+        tree.set("/other", "x" * 4_000)
+    assert tree.names() == ["/text"]
+    tree.delete("/text")
+    for _ in range(20):
+        tree.set("/list", [0] * 90)
+    with pytest.raises(ValueError, match="more than 100 values in all parameters"):
+        tree.set("/a/b/c", list(range(20)))
+    tree.set("/list", 1)
+    tree.set("/a/b/c", list(range(20)))
+    tree.set("/", {})
+    tree.set("/text", "x" * 8_000)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import logging
 import socket
 from typing import Any
@@ -11,35 +10,17 @@ import pytest
 
 from aioros1.net.admission import THIS_HOST, Admission
 from aioros1.net.allow import AllowList
+from aioros1.net.hosts import local_address
 
 LOG = logging.getLogger("aioros1.test")
 
 
-class Transport(asyncio.BaseTransport):
-    """One that knows nothing but where it comes from."""
-
-    def __init__(self, peername: Any, family: int | None = socket.AF_INET) -> None:
-        super().__init__()
-        self._peername = peername
-        self._family = family
-
-    def get_extra_info(self, name: str, default: Any = None) -> Any:
-        if name == "peername":
-            if isinstance(self._peername, OSError):
-                raise self._peername
-            return self._peername
-        assert name == "socket"
-        if self._family is None:
-            return None
-        return type("Socket", (), {"family": self._family})()
+def v4(host: str) -> tuple[int, Any]:
+    return socket.AF_INET, (host, 4242)
 
 
-def v4(host: str) -> Transport:
-    return Transport((host, 4242))
-
-
-def v6(host: str) -> Transport:
-    return Transport((host, 4242, 0, 0), socket.AF_INET6)
+def v6(host: str) -> tuple[int, Any]:
+    return socket.AF_INET6, (host, 4242, 0, 0)
 
 
 def door(allow: list[str] | None = None, *, total: int = 100, per_host: int = 100) -> Admission:
@@ -52,72 +33,98 @@ def door(allow: list[str] | None = None, *, total: int = 100, per_host: int = 10
     )
 
 
-async def test_hosts_are_told_apart_by_address_alone() -> None:
+async def test_hosts_are_told_apart_by_address() -> None:
     admission = door()
-    assert admission.enter(v4("10.0.0.5")) == "10.0.0.5"
-    assert admission.enter(v6("::ffff:10.0.0.5")) == "10.0.0.5"
-    assert admission.enter(v6("fe80::1%eth0")) == "fe80::1"
-    assert admission.open == 3
+    assert admission.enter(*v4("10.0.0.5")) == "10.0.0.5"
+    assert admission.enter(*v6("::ffff:10.0.0.5")) == "10.0.0.5"
+    assert admission.enter(*v4("10.0.0.6")) == "10.0.0.6"
+    assert admission.enter(*v6("2001:db8::1")) == "2001:db8::/64"
+    assert admission.open == 4
+
+
+@pytest.mark.parametrize(
+    "addresses",
+    [
+        ["127.0.0.1", "127.0.0.2", "127.255.3.4", "::1", "::ffff:127.0.0.9"],
+        ["2001:db8::1", "2001:db8::2", "2001:db8::ffff:ffff:ffff:ffff"],
+        ["fe80::1%eth0", "fe80::1%eth1", "fe80::abcd"],
+        ["10.0.0.5", "::ffff:10.0.0.5"],
+    ],
+    ids=["loopback", "an IPv6 subnet", "link-local", "mapped"],
+)
+async def test_one_machine_with_many_addresses_is_one_host(addresses: list[str]) -> None:
+    admission = door(per_host=len(addresses))
+    peers = [(v6 if ":" in address else v4)(address) for address in addresses]
+    hosts = {admission.enter(*peer) for peer in peers}
+    assert len(hosts) == 1
+    assert [admission.enter(*peer) for peer in peers] == [None] * len(peers)
+    assert admission.enter(*v4("10.9.9.9"))
+
+
+async def test_the_addresses_of_this_machine_are_one_host() -> None:
+    address = local_address()
+    if address is None:
+        pytest.skip("this machine has no address but loopback")
+    admission = door(per_host=2)
+    peer = (v6 if ":" in address else v4)(address)
+    assert admission.enter(*v4("127.0.0.1")) == admission.enter(*peer)
+    assert admission.enter(*peer) is admission.enter(*v4("127.0.0.1")) is None
 
 
 async def test_only_what_is_allowed_is_let_in() -> None:
     admission = door(["10.0.0.0/8"])
-    assert admission.enter(v4("10.0.0.5"))
-    assert admission.enter(v6("::ffff:10.0.0.5"))
-    assert admission.enter(v4("127.0.0.1")) is None
-    assert admission.enter(v6("::1")) is None
+    assert admission.enter(*v4("10.0.0.5"))
+    assert admission.enter(*v6("::ffff:10.0.0.5"))
+    assert admission.enter(*v4("127.0.0.1")) is None
+    assert admission.enter(*v6("::1")) is None
     assert (admission.open, admission.forbidden, admission.refused) == (2, 2, 0)
 
 
-@pytest.mark.parametrize(
-    "transport",
-    [Transport("", socket.AF_UNIX), Transport(None, None)],
-    ids=["unix", "in process"],
-)
+@pytest.mark.parametrize("peer", [(socket.AF_UNIX, ""), ()], ids=["unix", "in process"])
 async def test_peers_of_this_host_are_always_allowed_and_count_in_the_total(
-    transport: Transport,
+    peer: tuple[Any, ...],
 ) -> None:
     admission = door([], total=2, per_host=1)
-    assert [admission.enter(transport) for _ in range(3)] == [THIS_HOST, THIS_HOST, None]
+    assert [admission.enter(*peer) for _ in range(3)] == [THIS_HOST, THIS_HOST, None]
     assert (admission.forbidden, admission.refused) == (0, 1)
     admission.leave(THIS_HOST)
-    assert admission.enter(transport) == THIS_HOST
+    assert admission.enter(*peer) == THIS_HOST
 
 
-@pytest.mark.parametrize("peername", [None, OSError("not connected")])
+@pytest.mark.parametrize("peername", [None, ("?", 4242)])
 @pytest.mark.parametrize("allow", [None, ["10.0.0.0/8"]])
 async def test_a_peer_that_has_gone_again_is_not_taken_for_one_of_this_host(
     peername: Any, allow: list[str] | None
 ) -> None:
     admission = door(allow)
-    assert admission.enter(Transport(peername)) is None
+    assert admission.enter(socket.AF_INET, peername) is None
     assert (admission.open, admission.forbidden, admission.refused) == (0, 0, 0)
 
 
 async def test_the_limit_for_all() -> None:
     admission = door(total=2)
-    assert admission.enter(v4("10.0.0.1"))
-    assert admission.enter(v4("10.0.0.2"))
-    assert admission.enter(v4("10.0.0.3")) is None
+    assert admission.enter(*v4("10.0.0.1"))
+    assert admission.enter(*v4("10.0.0.2"))
+    assert admission.enter(*v4("10.0.0.3")) is None
     admission.leave("10.0.0.1")
-    assert admission.enter(v4("10.0.0.3"))
+    assert admission.enter(*v4("10.0.0.3"))
     assert (admission.open, admission.refused) == (2, 1)
 
 
 async def test_the_limit_for_one_host_is_not_that_of_others() -> None:
     admission = door(per_host=2)
-    assert [admission.enter(v4("10.0.0.1")) for _ in range(3)] == ["10.0.0.1", "10.0.0.1", None]
-    assert admission.enter(v6("::ffff:10.0.0.1")) is None
-    assert admission.enter(v4("10.0.0.2"))
+    assert [admission.enter(*v4("10.0.0.1")) for _ in range(3)] == ["10.0.0.1", "10.0.0.1", None]
+    assert admission.enter(*v6("::ffff:10.0.0.1")) is None
+    assert admission.enter(*v4("10.0.0.2"))
     admission.leave("10.0.0.1")
-    assert admission.enter(v4("10.0.0.1"))
+    assert admission.enter(*v4("10.0.0.1"))
     assert (admission.open, admission.refused) == (3, 2)
 
 
 async def test_hosts_that_have_left_are_forgotten() -> None:
     admission = door()
     for number in range(200):
-        host = admission.enter(v4(f"10.0.0.{number}"))
+        host = admission.enter(*v4(f"10.0.0.{number}"))
         assert host is not None
         admission.leave(host)
     assert admission._hosts == {}
@@ -128,9 +135,9 @@ async def test_who_is_turned_away_is_named_once_with_the_reason(
 ) -> None:
     admission = door(["10.0.0.0/8"], total=3, per_host=2)
     for _ in range(3):
-        admission.enter(v4("127.0.0.1"))
+        admission.enter(*v4("127.0.0.1"))
     for host in ("10.0.0.1", "10.0.0.1", "10.0.0.1", "10.0.0.2", "10.0.0.3", "10.0.0.3"):
-        admission.enter(v4(host))
+        admission.enter(*v4(host))
     assert [record.getMessage() for record in caplog.records] == [
         "refused a connection from 127.0.0.1 to the port: it is not in allow",
         (
@@ -147,6 +154,6 @@ async def test_a_flood_from_many_addresses_does_not_fill_the_log(
 ) -> None:
     admission = door([])
     for number in range(2000):
-        admission.enter(v4(f"10.0.{number // 200}.{number % 200}"))
+        admission.enter(*v4(f"10.0.{number // 200}.{number % 200}"))
     assert admission.forbidden == 2000
     assert len(caplog.records) == 256

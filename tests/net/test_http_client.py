@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import socket
 import threading
+import tracemalloc
 import xmlrpc.server
 from collections.abc import Iterator
 from typing import Any
@@ -239,9 +240,41 @@ async def test_small_requests_are_sent_at_once() -> None:
     ],
 )  # fmt: skip
 def test_where_a_request_goes(uri: str, expected: tuple[str, int, str]) -> None:
-    server = server_at(uri)
+    server = server_at(uri, any_path=True)
     assert (server.host, server.port) == expected[:2]
     assert server.head.decode().startswith(expected[2])
+
+
+@pytest.mark.parametrize(
+    ("uri", "path"),
+    [
+        ("http://h:1", "/RPC2"),
+        ("http://h:1/RPC2", "/RPC2"),
+        ("http://h:1/", "/"),
+        ("http://h:1//", "/"),
+        ("http://h:1/containers/x/kill", "/"),
+        ("http://h:1/RPC2/../x", "/"),
+        ("http://h:1/RPC2?x=y", "/"),
+        ("http://h:1?x=y", "/"),
+        ("http://h:1/x%0d%0aY: z", "/"),
+    ],
+)
+def test_a_path_is_not_believed(uri: str, path: str) -> None:
+    assert server_at(uri).head.decode().startswith(f"POST {path} HTTP/1.1\r\nHost: h:1\r\n")
+
+
+async def test_a_uri_without_end_is_refused_and_leaves_nothing_behind() -> None:
+    async with client() as ours:
+        tracemalloc.start()
+        try:
+            for number in range(20):
+                uri = f"http://127.0.0.1:1/{number}" + "x" * 1_000_000
+                with pytest.raises(ConnectionError, match="is not the URI of a ROS node") as caught:
+                    await ours.call(uri, "m")
+                assert len(str(caught.value)) < 1_000
+            assert tracemalloc.get_traced_memory()[0] < 5_000_000
+        finally:
+            tracemalloc.stop()
 
 
 # ------------------------------------------------------------------------------- connections

@@ -22,6 +22,13 @@ several_hosts = pytest.mark.skipif(
 )
 
 
+@pytest.fixture
+def each_address_is_a_host(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As if the loopback addresses were different machines."""
+    monkeypatch.setattr("aioros1.net.admission.host_of", str)
+    monkeypatch.setattr("aioros1.net.admission.is_local", lambda address: False)
+
+
 async def until(condition: Callable[[], bool]) -> None:
     async with asyncio.timeout(10):
         while not condition():
@@ -101,6 +108,7 @@ async def test_connections_beyond_the_limit_are_closed_and_counted() -> None:
 
 
 @several_hosts
+@pytest.mark.usefixtures("each_address_is_a_host")
 async def test_connections_of_one_host_beyond_its_limit() -> None:
     async with (
         serving(connections_per_host=2) as server,
@@ -135,6 +143,7 @@ NEVER: dict[str, Any] = {"requests_per_second": 0.001}
 
 
 @several_hosts
+@pytest.mark.usefixtures("each_address_is_a_host")
 async def test_requests_beyond_the_limit_wait_and_other_hosts_do_not() -> None:
     async with serving(**NEVER, requests_burst=2) as server:
         assert await still_serves(server)
@@ -189,6 +198,7 @@ async def test_a_peer_that_does_not_wait_for_its_answer_is_forgotten() -> None:
 
 
 @several_hosts
+@pytest.mark.usefixtures("each_address_is_a_host")
 async def test_nothing_is_read_without_end_from_who_waits() -> None:
     request = b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: %d\r\n\r\n" % len(PING) + PING
     async with serving(**NEVER, requests_burst=50) as server, connected(server) as peer:
