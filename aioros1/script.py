@@ -8,6 +8,7 @@ import inspect
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any, Generic, TypeVar
@@ -23,6 +24,9 @@ T = TypeVar("T")
 _LATE = 1.0
 """Seconds that ``main`` has to end after it has closed its node itself, before it is cancelled,
 and after that, before the program ends without it."""
+
+_BLOCKED = 0.5
+"""Seconds after which an event loop that has not received a signal counts as blocked."""
 
 _MOST_EXITS = 10
 """How many times the program may call ``sys.exit`` while it ends, before it ends at once."""
@@ -46,7 +50,8 @@ def run(
     SIGINT, SIGTERM, a shutdown from the graph (``rosnode kill``, a second node of the name) and
     an error of the node cancel ``main``. Its roles stay open for ``timeouts.close`` seconds, so
     that a ``finally`` can stop the robot; then the node closes. A second signal closes the node
-    at once. A signal while the node starts stops the start.
+    at once; if ``main`` blocks the event loop, it is interrupted by a :class:`KeyboardInterrupt`.
+    A signal while the node starts stops the start.
 
     An end that was asked for is no error: the result is what ``main`` returns, or None if it
     ends by its cancellation or a :class:`~aioros1.ClosedError`. After a shutdown from the graph
@@ -72,9 +77,9 @@ def run(
     node = Node(name, **node_options)
     script = _Script(main, node)
     try:
-        with _log_file(node), _previous_handlers():
+        with _log_file(node):
             _run(script, loop_factory)
-        return script.outcome()
+            return script.outcome()
     except (MasterUnreachable, ExceptionGroup) as error:
         if (missing := _missing_master(error)) is None:
             raise
@@ -155,7 +160,7 @@ class _Script(Generic[T]):
     async def live(self) -> None:
         """Run to the end. Raises what the start of the node raises."""
         self._life = asyncio.current_task()
-        with self._handling_signals(asyncio.get_running_loop()):
+        with _handling_signals(asyncio.get_running_loop(), self._receive_signal):
             try:
                 await self._node.start()
             except asyncio.CancelledError:
@@ -169,8 +174,7 @@ class _Script(Generic[T]):
                 try:
                     await asyncio.wait((closed,))
                 except asyncio.CancelledError:
-                    # By the runner, for SIGINT: some event loops handle no signals.
-                    self._receive_signal()
+                    self._receive_signal()  # whoever else ends the program
             self._failure = closed.exception()
             self.is_left_behind = not await self._has_ended(main)
 
@@ -222,21 +226,6 @@ class _Script(Generic[T]):
             main.cancel()
         return main.done()
 
-    # signals
-
-    @contextlib.contextmanager
-    def _handling_signals(self, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
-        handled = []
-        for number in _SIGNALS:
-            with contextlib.suppress(NotImplementedError):  # on Windows
-                loop.add_signal_handler(number, self._receive_signal)
-                handled.append(number)
-        try:
-            yield
-        finally:
-            for number in handled:
-                loop.remove_signal_handler(number)
-
     def _receive_signal(self) -> None:
         self._signals += 1
         if self._main is not None:
@@ -250,9 +239,6 @@ class _Script(Generic[T]):
         closing.add_done_callback(self._closing.discard)
 
 
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-
-
 def _without_ends(error: BaseException) -> BaseException | None:
     """What is left of an exception of ``main`` that was told to end."""
     ends = (asyncio.CancelledError, ClosedError)
@@ -262,14 +248,39 @@ def _without_ends(error: BaseException) -> BaseException | None:
 
 
 @contextlib.contextmanager
-def _previous_handlers() -> Iterator[None]:
-    """Restore the handlers of signals afterwards: event loops put Python's in their place."""
-    previous = {number: signal.getsignal(number) for number in _SIGNALS}
+def _handling_signals(
+    loop: asyncio.AbstractEventLoop, receive: Callable[[], object]
+) -> Iterator[None]:
+    """Call ``receive`` in the event loop for each SIGINT and SIGTERM.
+
+    If the loop has not done so for a while, the code that blocks it is interrupted by the
+    next signal, with :class:`KeyboardInterrupt`.
+    """
+    # Not loop.add_signal_handler(): nothing could interrupt a loop that is blocked.
+    waiting_since: float | None = None
+
+    def handle(number: int, frame: object) -> None:
+        nonlocal waiting_since
+        now = time.monotonic()
+        if waiting_since is None:
+            waiting_since = now
+        elif now - waiting_since > _BLOCKED:
+            waiting_since = None
+            raise KeyboardInterrupt
+        loop.call_soon_threadsafe(pass_on)
+
+    def pass_on() -> None:
+        nonlocal waiting_since
+        waiting_since = None
+        receive()
+
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    previous = {number: signal.signal(number, handle) for number in numbers}
     try:
         yield
     finally:
         for number, handler in previous.items():
-            if handler is not None:
+            if handler is not None:  # one that was not installed by Python
                 signal.signal(number, handler)
 
 

@@ -231,3 +231,18 @@ def test_resolved_names_stay_as_they_are(name: str) -> None:
     assert resolved.startswith("/")
     assert canonicalize(resolved) == resolved
     assert resolve_name(resolved, "/other", "/other/n") == resolved
+
+
+@pytest.mark.parametrize("bad", ["a\x01b", "a\x0cb", "a\ud800b", "\ufffe"])
+def test_names_that_no_master_can_be_told_of(bad: str) -> None:
+    for refused in (
+        lambda: validate(bad),
+        lambda: validate_base_name(bad),
+        lambda: normalize_namespace(bad),
+        lambda: resolve_name(bad, "/", "/node"),
+        lambda: resolve_remappings({"a": bad}, "/", "/node"),
+    ):
+        with pytest.raises(InvalidNameError, match="XML cannot carry"):
+            refused()
+    # The value of a parameter is no name, and a file name may have any bytes.
+    assert parse_args([f"_x:={bad}", f"{bad}.bag"]).params == {"x": bad}

@@ -299,6 +299,24 @@ async def test_a_second_signal_ends_the_time_for_cleaning_up(programs):
     assert program.heard[-1] == "stop"
 
 
+@pytest.mark.parametrize("loop", ["None", UVLOOP], ids=["asyncio", "uvloop"])
+async def test_signals_end_a_main_that_blocks_the_event_loop(programs, loop):
+    if loop == UVLOOP:
+        pytest.importorskip("uvloop")
+    program = await programs.start(
+        "import time\ntry:\n    while True:\n        time.sleep(0.01)\n"
+        "finally:\n    pub.publish(data='stop')",
+        loop=loop,
+    )
+    await program.ready()
+    while program.process.returncode is None:
+        await end_by("SIGINT", program, programs)
+        await asyncio.wait({asyncio.create_task(program.process.wait())}, timeout=0.3)
+    _, _, errors = await program.ended()
+    assert errors.rstrip().endswith("KeyboardInterrupt")
+    assert program.heard[-1] == "stop"
+
+
 # what main raises
 
 RAISING = {

@@ -32,10 +32,13 @@ _HOLD = 0.05
 """The part of a caller's patience after which a request that waits for its answer no longer
 counts in _AT_ONCE: a quarter of a second, unless ``timeouts.xmlrpc`` was changed."""
 
+_TYPICAL = 0.02
+"""Seconds that a request takes, until it is known better."""
+
 _STRAGGLERS = 16
 """The most requests of a node whose answer nothing waits for. Each has a connection."""
 
-_MOST_PATIENT = 16
+_MOST_PATIENT = 4
 """How many times longer to wait for the answer when several in a row did not come."""
 
 _LONGEST_REST = 64.0
@@ -83,8 +86,8 @@ class Registration:
         """When a request was given up that the master may still process, by the loop's time."""
         self.told_at = 0.0
         """When the last request was answered, by the loop's time."""
-        self.took = 0.0
-        """Seconds that the master took for it."""
+        self.took = _TYPICAL
+        """Seconds that requests take, of which a single slow one says little."""
         self._terms = terms
         self._register = register
         self._unregister = unregister
@@ -363,7 +366,7 @@ class Registration:
         try:
             await (self._register() if wanted else self._unregister())
             self.told_at = loop.time()
-            self.took = self.told_at - begin
+            self.took = min(self.told_at - begin, 2 * self.took)
         except Exception as error:
             answer.set_result(error)
         else:

@@ -214,7 +214,9 @@ class Heartbeat:
 
 def _is_another(known: tuple[int, str] | None, identity: tuple[int, str]) -> bool:
     """Whether a master that answers so is another one."""
-    if known is None or known[0] != identity[0]:
+    if known is None:
+        return True
+    if known[0] != identity[0] and known[0] and identity[0]:
         return True
     # roscore sets the id a moment after its master answers.
     return known[1] not in ("", identity[1])

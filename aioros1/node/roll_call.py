@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 
 from aioros1.core.context import Context
 from aioros1.core.registration import Registration
-from aioros1.errors import MasterError
+from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.xmlrpc.client import is_judgement
 from aioros1.xmlrpc.master_proxy import SystemState
 
@@ -34,6 +34,9 @@ _LATE_REQUESTS = 60.0
 """Seconds in which a master may still process a request whose connection was closed."""
 
 _LONGEST_PAUSE = 600.0
+
+_TYPICAL = 0.02
+"""Seconds that a comparison takes, until it is known better."""
 
 
 @dataclass
@@ -58,7 +61,7 @@ class RollCall:
         self._context = context
         self._next = 0.0  # when to compare, by the loop's time
         self._once_more: list[float] = []  # when to compare as well
-        self._took = float("inf")  # seconds that a comparison takes
+        self._took = _TYPICAL  # seconds that a comparison takes
         self._absences = _Absences()
         self._is_replaced = False
 
@@ -98,10 +101,13 @@ class RollCall:
         loop = asyncio.get_running_loop()
         try:
             state = await context.master.get_system_state()
+        except MasterUnreachable:
+            self._next = now + (loop.time() - now) / _SHARE
+            raise
         except MasterError as error:
-            if not is_judgement(error):
-                raise
-            self._next = now + _LONGEST_PAUSE  # a master that cannot list
+            # A master that cannot list, or one whose list is too large to be read.
+            context.log.debug("registrations cannot be compared: %s", error)
+            self._next = now + _LONGEST_PAUSE
             return Found()
         # A single slow answer says little about the next ones.
         self._took = min(loop.time() - now, 2 * self._took)

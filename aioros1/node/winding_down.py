@@ -109,7 +109,7 @@ class WindingDown:
     async def _call_all(self, seconds: float) -> None:
         loop = asyncio.get_running_loop()
         end = loop.time() + self._left(seconds)
-        while self._callbacks:
+        while self._callbacks and self._context.is_open:  # unless it is aborted
             # A task for each: one that does not end must not keep the next one from its turn.
             callback = self._callbacks.pop()
             task = self._tasks.spawn(

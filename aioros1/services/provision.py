@@ -168,6 +168,9 @@ class Provision(Shared[Providing]):
             self.provider._start_closing()
         while self.running:
             await self.idle.wait()
+        # The caller may be another role of this node, which has to read the answer.
+        while self._links:
+            await self._served.wait()
 
     def log_error(self, what: str, error: Exception) -> None:
         """Log what failed, with the traceback; callers can make it fail as often as they like."""

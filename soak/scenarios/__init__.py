@@ -11,6 +11,7 @@ from soak.scenarios import (
     many_nodes,
     master_restarts,
     parameters,
+    registrations,
     stalled_peers,
     two_loops,
 )
@@ -20,6 +21,7 @@ __all__ = ["SCENARIOS"]
 MODULES = (
     chaos,
     master_restarts,
+    registrations,
     cut_connections,
     lossless,
     many_nodes,

@@ -86,6 +86,34 @@ async def _true(value):
     return value
 
 
+@pytest.mark.parametrize("error", [ValueError, KeyError, OSError])
+async def test_whatever_happens_to_one_entry_the_others_are_told(make_node, monkeypatch, error):
+    """At registering again, and at closing."""
+    observer = await make_node("observer")
+    node = await make_node("node", heartbeat=0.02, rosout=False, logger_services=False)
+    await node.advertise("/bad", String)
+    pubs = [await node.advertise(f"/t{number}", String) for number in range(20)]
+    for method in ("register_publisher", "unregister_publisher"):
+        original = getattr(aioros1.MasterProxy, method)
+
+        async def fail(self, topic, *params, original=original):
+            if topic == "/bad":
+                raise error("it cannot be sent")
+            return await original(self, topic, *params)
+
+        monkeypatch.setattr(aioros1.MasterProxy, method, fail)
+    for number in range(3):
+        events = node.events()
+        await observer.set_param("/run_id", f"another {number}")
+        async with asyncio.timeout(30):
+            async for event in events:
+                if isinstance(event, aioros1.MasterRestarted):
+                    break
+    await node.close()
+    assert await listed(observer, "/node") == {"/bad"}
+    assert len(pubs) == 20
+
+
 @pytest.mark.parametrize("heartbeat", [None, 0.02])
 async def test_a_registration_that_is_never_answered_can_be_made_again(
     script, make_node, heartbeat

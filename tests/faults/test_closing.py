@@ -405,6 +405,20 @@ async def test_a_service_handler_closes_its_own_node_or_provider(make_node, what
     assert not provider.is_open
 
 
+@pytest.mark.parametrize("persistent", [False, True])
+async def test_a_node_that_calls_its_own_service_to_end_gets_the_answer(make_node, persistent):
+    node = await make_node()
+
+    async def handler(request):
+        await node.close()
+        return {"message": "good night"}
+
+    await node.advertise_service("end", SetBool, handler)
+    caller = await node.service_caller("end", SetBool, persistent=persistent)
+    assert (await caller.call(timeout=PATIENCE)).message == "good night"
+    await asyncio.wait_for(node.wait_closed(), PATIENCE)
+
+
 async def test_a_service_handler_can_offer_its_service_again(make_node):
     node = await make_node()
 

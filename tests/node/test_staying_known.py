@@ -100,8 +100,9 @@ async def _true(value):
 
 
 @pytest.mark.parametrize("params", [False, True])
-async def test_a_node_that_was_unregistered_by_others(make_node, params):
+async def test_a_node_that_was_unregistered_by_others(make_node, monkeypatch, params):
     """At a master that knows its name all the same, because it follows a parameter, or not."""
+    monkeypatch.setattr("aioros1.node.roll_call._CONFIRM", 0.05)
     observer = await make_node("observer", heartbeat=None)
     node = await make_node("node", heartbeat=0.02, **PLAIN)
     watched = Watched(node)

@@ -195,6 +195,24 @@ async def test_aborting_calls_nothing(make_node):
     assert called == []
 
 
+async def test_aborting_while_a_callback_runs_ends_that_too(make_node, caplog):
+    node = await make_node(timeouts=aioros1.Timeouts(close=3600))
+    begun, called = asyncio.Event(), []
+    node.on_shutdown(lambda: called.append(1))
+
+    @node.on_shutdown
+    async def hang():
+        begun.set()
+        await asyncio.sleep(3600)
+
+    closing = asyncio.create_task(node.close())
+    await asyncio.wait_for(begun.wait(), PATIENCE)
+    node.abort()
+    await asyncio.wait_for(closing, PATIENCE)
+    assert called == []
+    assert "ERROR" not in caplog.text
+
+
 # tasks and timers
 
 
