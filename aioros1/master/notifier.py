@@ -164,9 +164,9 @@ class Notifier:
                         pause = min(pause * 2, _LONGEST_PAUSE)
                         self._drop(queue, loop.time() - failing_since)
                 except (XmlRpcError, XmlRpcFault) as error:
-                    _LOG.info("%s", error)
+                    self._log.info("%s", error)
                 except Exception:
-                    _LOG.exception("cannot tell %s: %s", api, message)
+                    self._log.exception("cannot tell %s: %s", api, message)
                 else:
                     pause, failing_since, complaint = _FIRST_PAUSE, None, ""
         finally:
@@ -212,7 +212,7 @@ class Notifier:
             return  # another node has come to that address meanwhile
         else:
             answer = await call(message.api, "shutdown", _CALLER_ID, message.reason)
-        _LOG.debug("%s answered %.200s", message.api, answer)
+        self._log.debug("%s answered %s", message.api, printable(answer, 200))
 
     async def _encode(self, message: ParamUpdate) -> bytes:
         """The request that tells of ``message``; the same bytes for all nodes that it is for.

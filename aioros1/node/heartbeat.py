@@ -47,7 +47,6 @@ class Heartbeat:
         self._is_first = False  # the next master to answer is the first of this node
         self._is_stopped = False
         self._renewals = 0
-        self._complaint = ""
         self.refusal: MasterError | None = None
         """The error of :meth:`greet`, if it failed."""
 
@@ -114,8 +113,7 @@ class Heartbeat:
         # Also after an outage of the same master, which may have missed registrations
         # sent meanwhile.
         if was_lost or self._is_stale or _is_another(known, identity):
-            self._is_first = self._is_first or known is None
-            self._renew(is_news=not self._is_first)
+            self._renew(is_news=known is not None)
         else:
             context.registrations.push()
             await self._is_done(self._look)
@@ -144,15 +142,13 @@ class Heartbeat:
             if self._identity is None:
                 self._is_first = True  # there was none that could be lost
                 return
-            uri = context.master.uri
-            context.log.warning("lost the master at %s: %s", uri, error.in_short)
-            context.emit(MasterLost(uri, error.in_short))
+            uri, reason = context.master.uri, error.in_short
+            context.log.warning("lost the master at %s: %s", uri, reason)
+            context.emit(MasterLost(uri, reason))
 
     def _complain(self, text: str) -> None:
-        """Log what goes wrong once, until it is something else."""
-        if text != self._complaint:
-            self._complaint = text
-            self._context.log.warning("%s", text)
+        """Log what goes wrong, and count it if it goes on."""
+        self._context.log.complain("%s", text)
 
     async def _look(self) -> None:
         """Register again what the master does not list."""
@@ -168,7 +164,7 @@ class Heartbeat:
             context.log.warning("the master at %s has forgotten this node", context.master.uri)
             self._renew(is_news=True)
         for entry in found.missing:
-            context.log.warning(
+            context.log.complain(
                 "the master at %s has forgotten %s %s", context.master.uri, entry.kind, entry.name
             )
             entry.forget()
@@ -209,8 +205,8 @@ class Heartbeat:
         if unreachable and len(unreachable) == entries:
             self._is_stale = True
             return
-        self._is_first = False
-        if is_news and self._identity is not None:
+        is_first, self._is_first = self._is_first, False
+        if is_news and not is_first and self._identity is not None:
             uri = context.master.uri
             context.log.warning("registered again at the master at %s", uri)
             context.emit(MasterRestarted(uri, self._identity[1]))

@@ -224,7 +224,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
                     patience=timeouts.xmlrpc,
                     supervisor=supervisor,
                     emit=events.publish,
-                    warn=self.log.warning,
+                    warn=lambda text: context.log.complain("%s", text),
                     on_silence=xmlrpc.close_idle,
                 )
             ),

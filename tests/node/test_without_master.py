@@ -78,6 +78,7 @@ async def test_the_error_is_one_line_that_says_what_to_do(port, ask):
     assert "ROS_MASTER_URI" in text
     assert 'without_master="wait"' in text
     assert "Errno" not in text
+    assert text.count("refused") == 1  # not for each address
     # One traceback, without a chain of others.
     shown = "".join(traceback.format_exception(caught.value))
     assert shown.count("Traceback") == 1
