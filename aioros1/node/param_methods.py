@@ -82,7 +82,11 @@ class ParamMethods:
 
     async def get_param_cached(self, key: str, default: Any = ...) -> Any:
         """Like :meth:`get_param`, but follow the parameter from the first call on, so that
-        later calls do not ask the master."""
+        later calls do not ask the master.
+
+        The node follows up to 256 parameters in this way. The one that was not asked for
+        longest makes room for another.
+        """
         return await self._ask(lambda: self._params.get_cached(key, default))
 
     async def _ask(self, ask: Callable[[], Awaitable[T]]) -> T:
