@@ -237,12 +237,16 @@ async def large_param(target: Target) -> None:
 
 
 async def many_values(target: Target) -> None:
-    await target.set_param("/p", f"<array><data>{'<value><i4>1</i4></value>' * 240_000}</data></array>")
+    await target.set_param(
+        "/p", f"<array><data>{'<value><i4>1</i4></value>' * 240_000}</data></array>"
+    )
     await target.ask(post(call("getParam", "/a", "/p")))
 
 
 async def small_values_at_once(target: Target) -> None:
-    request = post(call("setParam", "/a", "/p", f"<array><data>{'<value/>' * 7_000}</data></array>"))
+    request = post(
+        call("setParam", "/a", "/p", f"<array><data>{'<value/>' * 7_000}</data></array>")
+    )
     await asyncio.gather(*(target.ask(request) for _ in range(300)))
 
 
