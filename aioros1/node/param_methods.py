@@ -26,7 +26,11 @@ class ParamMethods:
         :class:`~aioros1.MasterError`, :class:`~aioros1.InvalidNameError` and
         :class:`~aioros1.ClosedError`.
         """
-        return Opening(self._params.subscribe(key, default), f"subscriber of parameter {key}")
+        return Opening(
+            self._params.subscribe(key, default),
+            "subscribe_param",
+            f"subscriber of parameter {key}",
+        )
 
     async def get_param(self, key: str, default: Any = ...) -> Any:
         """Return the value of a parameter, or a dict of everything below it.

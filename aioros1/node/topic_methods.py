@@ -76,7 +76,9 @@ class TopicMethods:
             tcp_nodelay=tcp_nodelay,
             headers=headers,
         )
-        return Opening(self._topics.advertise(topic, type, options), f"publisher {topic}")
+        return Opening(
+            self._topics.advertise(topic, type, options), "advertise", f"publisher {topic}"
+        )
 
     @overload
     def subscribe(
@@ -164,7 +166,7 @@ class TopicMethods:
             what = "the serialised message" if raw else "the message"
             check_takes(callback, f"subscriber {topic}: the callback", what)
         opening = self._topics.subscribe(topic, type, callback, options)
-        return Opening(opening, f"subscriber {topic}")
+        return Opening(opening, "subscribe", f"subscriber {topic}")
 
     @overload
     async def wait_for_message(
