@@ -34,7 +34,7 @@ class ParamMethods:
         :class:`~aioros1.ClosedError`.
         """
         opening = self._params.subscribe(key, default, self._contact.policy)
-        return Opening(opening, f"subscriber of parameter {key}")
+        return Opening(opening, "subscribe_param", f"subscriber of parameter {key}")
 
     async def get_param(self, key: str, default: Any = ...) -> Any:
         """Return the value of a parameter, or a dict of everything below it.
