@@ -35,6 +35,7 @@ _MODULES = {
         "MessageError",
         "MessageNotFoundError",
         "MessageSpecError",
+        "NodeNotFound",
         "PeerError",
         "PeerUnreachable",
         "RosError",
@@ -97,7 +98,9 @@ __all__ = ["__version__", *_HOMES]
 def __getattr__(name: str) -> Any:
     home = _HOMES.get(name)
     if home is None:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from aioros1.hints import MODULE_HABITS, no_attribute
+
+        raise no_attribute(f"module {__name__!r}", name, MODULE_HABITS)
     value = getattr(import_module(f"{__name__}.{home}"), name)
     globals()[name] = value
     return value

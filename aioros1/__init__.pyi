@@ -19,6 +19,7 @@ from aioros1.errors import Md5MismatchError as Md5MismatchError
 from aioros1.errors import MessageError as MessageError
 from aioros1.errors import MessageNotFoundError as MessageNotFoundError
 from aioros1.errors import MessageSpecError as MessageSpecError
+from aioros1.errors import NodeNotFound as NodeNotFound
 from aioros1.errors import PeerError as PeerError
 from aioros1.errors import PeerUnreachable as PeerUnreachable
 from aioros1.errors import RosError as RosError

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from aioros1._public import public
+from aioros1.quoting import printable
 
 __all__ = ["ConnectionInfo", "ConnectionStats"]
 
@@ -32,7 +33,7 @@ class ConnectionStats:
 
 
 @public
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class ConnectionInfo:
     """One connection of a role.
 
@@ -49,7 +50,8 @@ class ConnectionInfo:
     """Whether messages come in, go out, or both (services)."""
 
     peer: str
-    """The caller id of the other side; if that is a publisher, the URI of its node."""
+    """The caller id of the other side, which may be any text; if that is a publisher, the URI
+    of its node."""
 
     local: tuple[str, int]
     """The address and port on our side; ``("", 0)`` if the transport is not TCP."""
@@ -60,13 +62,21 @@ class ConnectionInfo:
     fileno: int
     """The file descriptor of the socket; -1 if there is none."""
 
-    header: Mapping[str, str] = field(repr=False)
+    header: Mapping[str, str]
     """The connection header that the other side sent."""
 
     transport: str = "TCPROS"
     """``TCPROS``, or ``UNIXROS`` or ``INTRAPROCESS`` between nodes of this library."""
 
     stats: ConnectionStats = field(default_factory=ConnectionStats)
+
+    def __repr__(self) -> str:
+        ours = {name: getattr(self, name) for name in ("id", "name", "direction")}
+        # Without the header, which holds a whole definition.
+        words = [f"{name}={value!r}" for name, value in ours.items()]
+        words += [f"peer='{printable(self.peer)}'", f"transport={self.transport!r}"]
+        words += [f"local={self.local!r}", f"remote={self.remote!r}", f"stats={self.stats!r}"]
+        return f"ConnectionInfo({', '.join(words)})"
 
     @property
     def description(self) -> str:

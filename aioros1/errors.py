@@ -11,7 +11,8 @@
     │   ├── DeserializationError
     │   └── Md5MismatchError
     ├── MasterError
-    │   └── MasterUnreachable (ConnectionError)
+    │   ├── MasterUnreachable (ConnectionError)
+    │   └── NodeNotFound (LookupError)
     ├── PeerError
     │   └── PeerUnreachable (ConnectionError)
     ├── HandshakeError
@@ -22,6 +23,9 @@
 
 Waiting too long raises the builtin :class:`TimeoutError`, reading an empty queue
 :class:`asyncio.QueueEmpty`, and writing to a full one :class:`asyncio.QueueFull`.
+
+What a peer said becomes part of an error only as :func:`~aioros1.quoting.printable` shows it,
+so the text of an error is one line of bounded length, whoever wrote it.
 """
 
 from __future__ import annotations
@@ -31,6 +35,7 @@ from os import PathLike
 from typing import Self
 
 from aioros1._public import public
+from aioros1.quoting import printable
 
 __all__ = [
     "ClosedError",
@@ -43,6 +48,7 @@ __all__ = [
     "MessageError",
     "MessageNotFoundError",
     "MessageSpecError",
+    "NodeNotFound",
     "PeerError",
     "PeerUnreachable",
     "RosError",
@@ -53,9 +59,20 @@ __all__ = [
 ]
 
 
+_LONGEST = 2000
+"""Characters of the whole text of an error, which may quote several things."""
+
+
 @public
 class RosError(Exception):
-    """The base of all errors of this library."""
+    """The base of all errors of this library.
+
+    Its text is one line. Line ends and other invisible characters in it are escaped, since
+    parts of it may come from a peer, and it is cut after 2,000 characters.
+    """
+
+    def __init__(self, *args: object) -> None:
+        super().__init__(*(printable(a, _LONGEST) if isinstance(a, str) else a for a in args))
 
 
 @public
@@ -73,19 +90,25 @@ class MessageNotFoundError(MessageError, LookupError):
     """No definition of that type was found in any of the places searched.
 
     ``places`` are the directories, in search order; None when the definition should have
-    been elsewhere.
+    been elsewhere. ``suggestions`` are types with similar names, the likest first.
     """
 
-    def __init__(self, text: str, places: Sequence[str] | None = None) -> None:
-        super().__init__(text, places)
-        self.text = text
+    def __init__(
+        self, text: str, places: Sequence[str] | None = None, suggestions: Sequence[str] = ()
+    ) -> None:
+        super().__init__(text, places, suggestions)
+        self.text = printable(text, _LONGEST)
         """What was not found, without the places."""
         self.places = places
+        self.suggestions = suggestions
 
     def __str__(self) -> str:
-        if self.places is None:
-            return self.text
-        return f"{self.text}; searched: {', '.join(self.places) or 'no directory'}"
+        text = self.text
+        if self.places is not None:
+            text += f"; searched: {', '.join(self.places) or 'no directory'}"
+        if self.suggestions:
+            text += f"; did you mean {' or '.join(self.suggestions)}?"
+        return text
 
 
 @public
@@ -107,7 +130,17 @@ class MessageSpecError(MessageError):
 
 @public
 class SerializationError(MessageError):
-    """A value does not fit its field; the text begins with the field's path."""
+    """A value does not fit its field; the text begins with the field's path.
+
+    It ends with the type of the message and, if the message was to be sent, with the topic or
+    service, in parentheses.
+    """
+
+    def locate(self, type: str, place: str = "") -> Self:
+        """Say which type, and where it was to be sent; return the error itself."""
+        text = str(self.args[0]).removesuffix(f" ({type})")
+        self.args = (f"{text} ({type} {place})" if place else f"{text} ({type})",)
+        return self
 
 
 @public
@@ -131,25 +164,50 @@ class MasterError(RosError):
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
         super().__init__(code, status)
+        status = printable(status, _LONGEST)
         self.code = code
         self.status = status
         self.is_refusal = is_refusal
 
     def __str__(self) -> str:
+        return self.in_short
+
+    @property
+    def in_short(self) -> str:
+        """What went wrong, without advice."""
         return f"{self.status} (code {self.code})"
 
 
 @public
 class MasterUnreachable(MasterError, ConnectionError):
-    """No master answers at the master's URI."""
+    """No master answers at the master's URI.
 
-    def __init__(self, status: str) -> None:
+    ``status`` says what was tried and what came of it, and ``advice`` what you can do.
+    ``was_sent`` is False if the request certainly never reached a master.
+    """
+
+    def __init__(self, status: str, *, advice: str = "", was_sent: bool = True) -> None:
         super().__init__(-1, status, is_refusal=False)
+        self.advice = advice
+        self.was_sent = was_sent
 
-    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
-        return type(self), (self.status,)
+    def __reduce__(self) -> tuple[type[Self], tuple[str], dict[str, object]]:
+        return type(self), (self.status,), vars(self)
 
     def __str__(self) -> str:
+        return f"{self.status}; {self.advice}" if self.advice else self.status
+
+    @property
+    def in_short(self) -> str:
+        return self.status
+
+
+@public
+class NodeNotFound(MasterError, LookupError):
+    """The master knows no node of that name."""
+
+    @property
+    def in_short(self) -> str:
         return self.status
 
 
@@ -159,6 +217,7 @@ class PeerError(RosError):
 
     def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
         super().__init__(code, status)
+        status = printable(status, _LONGEST)
         self.code = code
         """0 or -1 from the answer, or the code of an XML-RPC fault."""
         self.status = status
@@ -189,26 +248,35 @@ class PeerUnreachable(PeerError, ConnectionError):
 class HandshakeError(RosError):
     """The handshake of a TCPROS connection failed.
 
-    ``peer`` names the other side. ``text`` is its ``error=`` text, or what is wrong with what
-    it sent.
+    ``peer`` names the other side. ``text`` is its ``error=`` text, as it said it, or what is
+    wrong with what it sent.
     """
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str, str]]:
+        return type(self), (self.peer, self.text)
 
     def __init__(self, peer: str, text: str) -> None:
         super().__init__(peer, text)
-        self.peer = peer
+        self.peer = printable(peer)
         self.text = text
 
     def __str__(self) -> str:
-        return f"{self.peer}: {self.text}"
+        return f"{self.peer}: {printable(self.text, _LONGEST)}"
 
 
 @public
 class ServiceError(RosError):
-    """A service call failed; ``text`` is what the server said."""
+    """A service call failed; ``text`` is what the server said, as it said it.
+
+    The text of the error itself is safe to log, as that of every :class:`RosError`.
+    """
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self.text = text
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
+        return type(self), (self.text,)
 
 
 @public

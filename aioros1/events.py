@@ -111,8 +111,8 @@ class MasterLost(Event):
 @public
 @dataclass(frozen=True, slots=True)
 class MasterRestarted(Event):
-    """The master is back, was replaced, or was told this node's new address. It has all
-    registrations again."""
+    """The master is back, was replaced, had forgotten this node, or was told its new address.
+    It has all registrations again, except those that it refuses."""
 
     uri: str
     """The URI of the master."""

@@ -8,8 +8,8 @@ from typing import Self
 
 from aioros1._public import public
 from aioros1.core.context import Context
-from aioros1.errors import ClosedError, MasterError
-from aioros1.waiting import deadline
+from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.waiting import Obstacle, deadline
 
 __all__ = ["Graph", "GraphChange", "GraphChanges", "GraphNode", "GraphSnapshot"]
 
@@ -123,8 +123,11 @@ class Graph:
         return GraphSnapshot(publishers, subscribers, services, dict(types))
 
     def changes(self, poll: float = 1.0) -> GraphChanges:
-        """Iterate over changes since the iteration began, polling every ``poll`` seconds. The
-        iteration ends when the node closes.
+        """Iterate over changes since the iteration began, polling every ``poll`` seconds.
+
+        The iteration ends when the node closes. It goes on while the master is away, which
+        knows nothing of anybody when it is back: what it has lost by then is a change, and so
+        is what has registered again. ``MasterLost`` is among the node's events.
 
         Raises :class:`ValueError` for a ``poll`` that is not positive.
         """
@@ -139,13 +142,16 @@ class Graph:
     ) -> GraphSnapshot:
         """Wait until ``predicate(snapshot)`` is true, and return that snapshot.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, :class:`~aioros1.MasterError`,
+        While no master answers, this goes on asking. Raises :class:`TimeoutError` after
+        ``timeout`` seconds, :class:`~aioros1.MasterError` when the master refuses,
         :class:`~aioros1.ClosedError`, what ``predicate`` raises, and :class:`ValueError` for a
         ``poll`` that is not positive.
         """
         _positive(poll)
-        async with deadline(timeout, "the graph did not become as wanted"):
-            while not predicate(snapshot := await self.snapshot()):
+        watch = _Watch(self)
+        async with deadline(timeout, "the graph did not become as wanted") as limit:
+            limit.why = Obstacle(lambda: watch.obstacle)
+            while (snapshot := await watch.look()) is None or not predicate(snapshot):
                 await self._context.pause(poll)
         return snapshot
 
@@ -161,6 +167,7 @@ class GraphChanges:
     def __init__(self, graph: Graph, poll: float) -> None:
         self._graph = graph
         self._poll = poll
+        self._watch = _Watch(graph)
         self._before: GraphSnapshot | None = None
         self._has_ended = False
 
@@ -168,16 +175,21 @@ class GraphChanges:
         return self
 
     async def __anext__(self) -> GraphChange:
-        """Wait for the next change. Raises :class:`~aioros1.MasterError`."""
+        """Wait for the next change. Raises :class:`~aioros1.MasterError` when the master
+        refuses."""
         context = self._graph._context
         try:
             if self._before is None and not self._has_ended:
-                self._before = await self._graph.snapshot()
-            while self._before is not None and not self._has_ended:
+                self._before = await self._watch.look()
+            while not self._has_ended:
                 await context.pause(self._poll)
-                now = await self._graph.snapshot()
-                old, new = self._before._registrations(), now._registrations()
-                self._before = now
+                now = await self._watch.look()
+                if now is None:
+                    continue
+                before, self._before = self._before, now
+                if before is None:
+                    continue
+                old, new = before._registrations(), now._registrations()
                 if old != new:
                     return GraphChange(now, new - old, old - new)
         except (ClosedError, MasterError):
@@ -191,6 +203,34 @@ class GraphChanges:
 
     def __repr__(self) -> str:
         return f"<changes of {self._graph!r}>"
+
+
+class _Watch:
+    """Looks at a graph again and again, whether its master is there or not."""
+
+    def __init__(self, graph: Graph) -> None:
+        self._graph = graph
+        self._has_seen = False
+        self.obstacle = ""
+        """Why the last look was in vain; empty if it was not."""
+
+    async def look(self) -> GraphSnapshot | None:
+        """Return the current graph, or None while no master answers.
+
+        Raises :class:`~aioros1.MasterError` when the master refuses, and for an answer that is
+        none unless there were proper ones before. A master may end in the middle of one.
+        """
+        try:
+            snapshot = await self._graph.snapshot()
+        except MasterError as error:
+            is_away = isinstance(error, MasterUnreachable) or self._has_seen
+            if error.is_refusal or not is_away:
+                raise
+            self.obstacle = error.in_short
+            return None
+        self._has_seen = True
+        self.obstacle = ""
+        return snapshot
 
 
 def _positive(poll: float) -> float:

@@ -6,7 +6,7 @@ Resolved names start with a slash, have no empty parts and no slash at the end.
 
 ROS 1 programs accept far more names than the documentation allows (``/1abc``, ``/a-b``,
 ``/ü``), and robots in the field use them. This module therefore refuses only what no master
-accepts: the empty name, ``/`` itself, blanks and colons.
+accepts: the empty name, ``/`` itself, blanks, colons and characters that XML cannot carry.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def normalize_namespace(namespace: str) -> str:
 
     Raises :class:`InvalidNameError` for a private name, blanks and colons.
     """
-    text = _text(namespace, "namespace")
+    text = _name(namespace, "namespace")
     if is_private(text) or " " in text or ":" in text:
         raise InvalidNameError(
             f"{namespace!r} is not a namespace: expected one like '/robot/arm', "
@@ -94,7 +94,7 @@ def validate(name: str, what: str = "name") -> str:
     ``what`` says in the error text what the name is for. Raises :class:`InvalidNameError`,
     and :class:`TypeError` for anything but a string.
     """
-    text = _text(name, what)
+    text = _name(name, what)
     if " " in text or ":" in text or not text.strip("/"):
         raise InvalidNameError(
             f"{name!r} is not a {what}: expected a name like 'scan', '/robot/scan' or '~scan', "
@@ -109,7 +109,7 @@ def validate_base_name(name: str, what: str = "node name") -> str:
     The namespace of a node is given separately, so slashes are refused here. Raises as
     :func:`validate` does.
     """
-    text = _text(name, what)
+    text = _name(name, what)
     if not text or any(char in text for char in "/~ :"):
         raise InvalidNameError(
             f"{name!r} is not a {what}: expected a single name like 'camera', not empty, without "
@@ -207,8 +207,9 @@ def parse_args(argv: Iterable[str]) -> Arguments:
     """Sort the words of a command line (with or without the program's name).
 
     Words such as ``--a:=b`` are not remappings and stay in ``rest``. The last of several
-    assignments to one name wins. Raises :class:`InvalidNameError` for a remapping to
-    nothing (``a:=``), and :class:`TypeError` for anything but a list of words.
+    assignments to one name wins. An assignment of nothing (``a:=``, ``_a:=``) is ignored, as
+    in rospy: that is what a launch file with an empty argument has. Raises :class:`TypeError`
+    for anything but a list of words.
     """
     if isinstance(argv, str | bytes):
         raise TypeError(f"a command line is a list of words, not one: {argv!r}")
@@ -221,12 +222,12 @@ def parse_args(argv: Iterable[str]) -> Arguments:
         name, value = match[1], match[2].strip()
         if name.startswith("__"):
             arguments.special[name] = value
+        elif not value:
+            continue
         elif name.startswith("_") and len(name) > 1:
             arguments.params[name[1:]] = value
-        elif value:
-            arguments.remappings[name] = value
         else:
-            raise InvalidNameError(f"{word}: {name!r} is remapped to nothing: expected a name")
+            arguments.remappings[name] = value
     return arguments
 
 
@@ -246,7 +247,20 @@ def _namespace_prefix(caller_id: str) -> str:
     return caller_id[: caller_id.rfind("/") + 1] or "/"
 
 
+# Control characters and halves of surrogate pairs: no master can be told of them.
+_UNSENDABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+
+
+def _name(name: object, what: str) -> str:
+    text = _text(name, what)
+    bad = _UNSENDABLE.search(text)
+    if bad is not None:
+        raise InvalidNameError(f"{name!r} is not a {what}: XML cannot carry {bad[0]!r}")
+    return text
+
+
 def _text(name: object, what: str) -> str:
     if not isinstance(name, str):
-        raise TypeError(f"a {what} is a str, not {type(name).__name__}: {name!r}")
+        hint = "; the name comes before the type" if isinstance(name, type) else ""
+        raise TypeError(f"a {what} is a str, not {type(name).__name__}: {name!r:.200}{hint}")
     return name

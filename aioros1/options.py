@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 from aioros1._public import public
+from aioros1.hints import check_kinds
 
 __all__ = [
     "DEFAULT_QUEUE_SIZE",
@@ -17,6 +18,7 @@ __all__ = [
     "OnError",
     "Overflow",
     "Timeouts",
+    "WithoutMaster",
     "check_queue",
 ]
 
@@ -25,6 +27,9 @@ Overflow = Literal["drop_oldest", "drop_newest", "block"]
 
 OnError = Literal["raise", "log"] | Callable[[Exception], object]
 """What happens to an exception in a user's callback that nobody awaits."""
+
+WithoutMaster = Literal["raise", "wait", "later"]
+"""What opening a role does while no master answers."""
 
 LocalTransport = Literal["intraprocess", "unix"]
 """A transport between nodes of this library, within one event loop or within one host."""
@@ -213,6 +218,8 @@ class NodeOptions:
     """Whether the node follows ``/clock``; None for what the parameter says."""
     heartbeat: float | None = 1.0
     """Seconds between two checks of the master; None for no checks."""
+    without_master: WithoutMaster = "raise"
+    """What opening a role does while no master answers."""
     timeouts: Timeouts = Timeouts()
     """How long the node waits for others."""
     limits: Limits = Limits()
@@ -223,9 +230,7 @@ class NodeOptions:
     """The transports that topics may use instead of TCP."""
 
     def __post_init__(self) -> None:
-        for name, (kind, expected) in _KINDS.items():
-            if not isinstance(value := getattr(self, name), kind):
-                raise TypeError(f"{name} must be {expected}, got {value!r}")
+        check_kinds(self, _KINDS)
         for name, port in (("xmlrpc_port", self.xmlrpc_port), ("tcpros_port", self.tcpros_port)):
             if not isinstance(port, int) or isinstance(port, bool) or not 0 <= port <= 65535:
                 raise ValueError(f"{name} must be a whole number from 0 to 65535, got {port!r}")
@@ -233,12 +238,24 @@ class NodeOptions:
             raise ValueError(f"on_error must be 'raise', 'log' or callable, got {self.on_error!r}")
         if self.heartbeat is not None and not self.heartbeat > 0:
             raise ValueError(f"heartbeat must be positive or None, got {self.heartbeat!r}")
+        _check_without_master(self.without_master, self.heartbeat)
         _check_rosout(self.rosout)
         known = get_args(LocalTransport)
         named = self.local_transports
         if isinstance(named, str) or any(each not in known for each in named):
             choices = ", ".join(map(repr, known))
             raise ValueError(f"local_transports must be some of {choices}, got {named!r}")
+
+
+def _check_without_master(policy: object, heartbeat: float | None) -> None:
+    if policy not in get_args(WithoutMaster):
+        choices = ", ".join(map(repr, get_args(WithoutMaster)))
+        raise ValueError(f"without_master must be one of {choices}, got {policy!r}")
+    if policy == "later" and heartbeat is None:
+        raise ValueError(
+            "without_master='later' needs a heartbeat, which registers what was opened; "
+            "got heartbeat=None"
+        )
 
 
 def _check_rosout(rosout: object) -> None:
@@ -254,9 +271,17 @@ def _check_rosout(rosout: object) -> None:
 
 def check_queue(queue_size: int, overflow: str) -> None:
     """Raise :class:`ValueError` for invalid queue options."""
-    if not isinstance(queue_size, int) or queue_size < 1:
+    if not isinstance(queue_size, int) or isinstance(queue_size, bool) or queue_size < 1:
+        # rospy takes None and 0: to publish in the caller's thread, or without a bound.
+        habit = queue_size is None or (isinstance(queue_size, int) and queue_size <= 0)
         raise ValueError(
-            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r}"
+            f"queue_size must be a whole number of messages, at least 1, got {queue_size!r:.200}"
+            + (
+                f": every queue is bounded, and publish() never waits. Leave it out for "
+                f"{DEFAULT_QUEUE_SIZE}, or use overflow='block' and send() to lose nothing"
+                if habit
+                else ""
+            )
         )
     if overflow not in get_args(Overflow):
         choices = ", ".join(map(repr, get_args(Overflow)))

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import inspect
 import signal
 import sys
+import threading
+import time
 from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
-from aioros1 import ClosedError, Node
+from aioros1 import ClosedError, MasterUnreachable, Node
 from aioros1._public import public
 
 __all__ = ["run"]
@@ -18,8 +21,15 @@ __all__ = ["run"]
 T = TypeVar("T")
 
 
-_GRACE = 1.0
-"""Seconds that ``main`` has to return after its node closes, before it is cancelled."""
+_LATE = 1.0
+"""Seconds that ``main`` has to end after it has closed its node itself, before it is cancelled,
+and after that, before the program ends without it."""
+
+_BLOCKED = 0.5
+"""Seconds after which an event loop that has not received a signal counts as blocked."""
+
+_MOST_EXITS = 10
+"""How many times the program may call ``sys.exit`` while it ends, before it ends at once."""
 
 
 @public
@@ -37,78 +47,241 @@ def run(
     ``__log:=`` names. ``loop_factory`` is passed to :class:`asyncio.Runner`, for example
     ``uvloop.new_event_loop``.
 
-    SIGINT and SIGTERM close the node. Loops over roles and rates then end, and ``main``
-    usually returns; if it does not, it is cancelled, and the result is None. A second signal
-    cancels it at once. A signal while the node starts stops the start, and the result is None.
-    Use this function only in scripts: no other part of the library touches signals.
+    SIGINT, SIGTERM, a shutdown from the graph (``rosnode kill``, a second node of the name) and
+    an error of the node cancel ``main``. Its roles stay open for ``timeouts.close`` seconds, so
+    that a ``finally`` can stop the robot; then the node closes. A second signal closes the node
+    at once; if ``main`` blocks the event loop, it is interrupted by a :class:`KeyboardInterrupt`.
+    A signal while the node starts stops the start.
+
+    An end that was asked for is no error: the result is what ``main`` returns, or None if it
+    ends by its cancellation or a :class:`~aioros1.ClosedError`. After a shutdown from the graph
+    the reason is written to standard error. Any other exception of ``main`` is raised once the
+    node is closed, and so is one in a callback that ended the node (``on_error="raise"``), and
+    the :class:`SystemExit` of a ``sys.exit()`` anywhere in the program. If ``main`` does not end
+    although it was cancelled twice, the program exits without it, with status 1.
+
+    Without a master, what ``main`` asks of it waits until one answers, and a line on standard
+    error says so (``without_master="wait"``). With ``without_master="raise"``, and after
+    ``main`` has raised :class:`~aioros1.MasterUnreachable`, the script ends with that one line
+    and status 1.
+
+    Use this function only in scripts: no other part of the library touches signals. Raises
+    :class:`RuntimeError` outside the main thread, and where an event loop is running.
     """
+    _check_place()
+    _check_main(main)
     if name is None:
         name = Path(sys.argv[0]).stem or "aioros1"
     node_options.setdefault("argv", sys.argv[1:])
+    node_options.setdefault("without_master", "wait")
     node = Node(name, **node_options)
-    with _log_file(node), asyncio.Runner(loop_factory=loop_factory) as runner:
-        return runner.run(_run(main, node))
-
-
-async def _run(main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> T | None:
-    signals = _Signals(node)
+    script = _Script(main, node)
     try:
-        async with node:
-            signals.main = task = asyncio.create_task(main(node), name="main")
-            try:
-                await asyncio.wait({task})
-            except asyncio.CancelledError:
-                task.cancel()
-                # While the node is open, since clean-up may need it.
-                with contextlib.suppress(Exception, asyncio.CancelledError):
-                    await task
-                raise
-        return await task
-    except (asyncio.CancelledError, ClosedError):
-        if signals.received:
+        with _log_file(node):
+            _run(script, loop_factory)
+            return script.outcome()
+    except (MasterUnreachable, ExceptionGroup) as error:
+        if (missing := _missing_master(error)) is None:
+            raise
+        raise SystemExit(f"{node.name}: {missing}") from None
+
+
+def _missing_master(error: Exception) -> Exception | None:
+    """The error that there is no master, if ``error``, alone or as a group, says only that."""
+    while isinstance(error, ExceptionGroup):
+        if error.split(MasterUnreachable)[1] is not None:
             return None
-        raise
-    finally:
-        signals.release()
+        error = error.exceptions[0]
+    return error
 
 
-class _Signals:
-    """Handles SIGINT and SIGTERM while a script runs, from the start of its node until the
-    node is closed."""
+def _check_place() -> None:
+    if threading.current_thread() is not threading.main_thread():
+        raise RuntimeError(
+            "aioros1.run() handles signals, which Python allows only in the main thread: in "
+            "another one, use aioros1.contrib.threads.NodeThread or `async with aioros1.Node(...)`"
+        )
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return
+    raise RuntimeError(
+        "aioros1.run() starts an event loop, but one is running here: use "
+        "`async with aioros1.Node(...)` in it"
+    )
 
-    def __init__(self, node: Node) -> None:
-        self.received = False
-        self.main: asyncio.Task[Any] | None = None
-        """The task of ``main``; None while the node starts, when a signal stops the start."""
-        self._node = node
-        self._starting = asyncio.current_task()
-        self._loop = asyncio.get_running_loop()
-        self._ending: asyncio.Task[None] | None = None
-        self._numbers: list[signal.Signals] = []
-        for number in (signal.SIGINT, signal.SIGTERM):
-            # Not available on Windows, or outside the main thread.
-            with contextlib.suppress(NotImplementedError, ValueError, RuntimeError):
-                self._loop.add_signal_handler(number, self._receive)
-                self._numbers.append(number)
 
-    def release(self) -> None:
-        for number in self._numbers:
-            self._loop.remove_signal_handler(number)
+def _check_main(main: Any) -> None:
+    if inspect.iscoroutine(main):
+        main.close()  # Python warns about a coroutine that is never awaited
+    if not callable(main):
+        raise TypeError(f"run() takes a coroutine function, `main` and not `main()`, got {main!r}")
 
-    def _receive(self) -> None:
-        again, self.received = self.received, True
-        if self.main is None:
-            if not again and self._starting is not None:
-                self._starting.cancel()
-        elif again:
-            self.main.cancel()
+
+def _run(
+    script: _Script[Any], loop_factory: Callable[[], asyncio.AbstractEventLoop] | None
+) -> None:
+    with contextlib.ExitStack() as stack:
+        runner = stack.enter_context(asyncio.Runner(loop_factory=loop_factory))
+        part = script.live()
+        for _ in range(_MOST_EXITS):
+            try:
+                runner.run(part)
+                break
+            except (SystemExit, KeyboardInterrupt) as error:
+                # From a task or a callback. The loop has stopped where it was, so go on there.
+                script.exit = script.exit or error
+                part = script.resume()
         else:
-            self._ending = self._loop.create_task(self._end(self.main), name="end")
+            part.close()
+        if script.is_left_behind:
+            stack.pop_all()  # closing the runner would wait for main
 
-    async def _end(self, main: asyncio.Task[Any]) -> None:
-        await self._node.close()
-        await asyncio.wait({main}, timeout=_GRACE)
-        main.cancel()
+
+class _Script(Generic[T]):
+    """The life of a script: its node starts, ``main`` runs, the node closes."""
+
+    def __init__(self, main: Callable[[Node], Coroutine[Any, Any, T]], node: Node) -> None:
+        self.exit: BaseException | None = None
+        """A :class:`SystemExit` or :class:`KeyboardInterrupt` of the program."""
+        self.is_left_behind = False
+        """Whether ``main`` goes on although its node is closed and it was cancelled."""
+        self._function = main
+        self._node = node
+        self._life: asyncio.Task[Any] | None = None
+        self._main: asyncio.Task[None] | None = None
+        self._result: T | None = None
+        self._error: BaseException | None = None  # of main
+        self._failure: BaseException | None = None  # of the node
+        self._was_told = False  # whether main was running when the node was told to end
+        self._signals = 0
+        self._closing: set[asyncio.Task[None]] = set()
+
+    async def live(self) -> None:
+        """Run to the end. Raises what the start of the node raises."""
+        self._life = asyncio.current_task()
+        with _handling_signals(asyncio.get_running_loop(), self._receive_signal):
+            try:
+                await self._node.start()
+            except asyncio.CancelledError:
+                if not self._signals:
+                    raise
+                return
+            main = self._main = self._node.create_task(self._run_main(), name="main")
+            closed = asyncio.create_task(self._node.wait_closed(), name="wait_closed")
+            main.add_done_callback(lambda _: self._close())
+            while not closed.done():
+                try:
+                    await asyncio.wait((closed,))
+                except asyncio.CancelledError:
+                    self._receive_signal()  # whoever else ends the program
+            self._failure = closed.exception()
+            self.is_left_behind = not await self._has_ended(main)
+
+    async def resume(self) -> None:
+        """Go on after the loop has stopped, and end."""
+        assert self._life is not None
+        self._close()
+        await asyncio.wait((self._life,))
+        self._life.result()
+
+    def outcome(self) -> T | None:
+        """Return the result of ``main``, or raise what there is to raise, after the end."""
+        error = self._error
+        if self._was_told and error is not None:
+            error = _without_ends(error)
+        if self.exit is not None:
+            raise self.exit
+        if isinstance(error, SystemExit):
+            raise error
+        if self.is_left_behind:
+            raise SystemExit(f"{self._function!r} goes on although it was cancelled: left behind")
+        if self._failure is not None:
+            if error is not None:
+                self._node.log.error("main failed while it ended", exc_info=error)
+            raise self._failure
+        if error is not None:
+            raise error
+        if self._was_told and not self._signals and self._node.close_reason != "closed":
+            sys.stderr.write(f"{self._node.name} was shut down: {self._node.close_reason}\n")
+        return self._result
+
+    async def _run_main(self) -> None:
+        try:
+            coroutine = self._function(self._node)
+            if not inspect.isawaitable(coroutine):
+                raise TypeError(f"run() takes a coroutine function, got {self._function!r}")
+            self._result = await coroutine
+        except BaseException as error:  # SystemExit too has to wait for the node
+            self._error = error
+        finally:
+            self._was_told = self._node.close_reason is not None
+
+    async def _has_ended(self, main: asyncio.Task[None]) -> bool:
+        """Whether ``main`` ends, now that the node is closed."""
+        # If the node has cancelled it, it has also waited for it. If main itself has closed
+        # the node, it may be about to return.
+        for _ in range(main.cancelling(), 2):
+            await asyncio.wait((main,), timeout=_LATE)
+            main.cancel()
+        return main.done()
+
+    def _receive_signal(self) -> None:
+        self._signals += 1
+        if self._main is not None:
+            self._close(grace=None if self._signals == 1 else 0)
+        elif self._signals == 1 and self._life is not None:
+            self._life.cancel()  # the start
+
+    def _close(self, grace: float | None = None) -> None:
+        closing = asyncio.create_task(self._node.close(grace=grace), name="close")
+        self._closing.add(closing)
+        closing.add_done_callback(self._closing.discard)
+
+
+def _without_ends(error: BaseException) -> BaseException | None:
+    """What is left of an exception of ``main`` that was told to end."""
+    ends = (asyncio.CancelledError, ClosedError)
+    if isinstance(error, BaseExceptionGroup):
+        return error.split(ends)[1]
+    return None if isinstance(error, ends) else error
+
+
+@contextlib.contextmanager
+def _handling_signals(
+    loop: asyncio.AbstractEventLoop, receive: Callable[[], object]
+) -> Iterator[None]:
+    """Call ``receive`` in the event loop for each SIGINT and SIGTERM.
+
+    If the loop has not done so for a while, the code that blocks it is interrupted by the
+    next signal, with :class:`KeyboardInterrupt`.
+    """
+    # Not loop.add_signal_handler(): nothing could interrupt a loop that is blocked.
+    waiting_since: float | None = None
+
+    def handle(number: int, frame: object) -> None:
+        nonlocal waiting_since
+        now = time.monotonic()
+        if waiting_since is None:
+            waiting_since = now
+        elif now - waiting_since > _BLOCKED:
+            waiting_since = None
+            raise KeyboardInterrupt
+        loop.call_soon_threadsafe(pass_on)
+
+    def pass_on() -> None:
+        nonlocal waiting_since
+        waiting_since = None
+        receive()
+
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    previous = {number: signal.signal(number, handle) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, handler in previous.items():
+            if handler is not None:  # one that was not installed by Python
+                signal.signal(number, handler)
 
 
 @contextlib.contextmanager

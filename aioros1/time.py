@@ -7,6 +7,8 @@ two signed ones.
 
 from __future__ import annotations
 
+import re
+from datetime import UTC, datetime, timedelta
 from operator import index
 from time import time_ns
 from typing import Any, ClassVar, Final, TypeVar, overload
@@ -16,6 +18,8 @@ from aioros1._public import public
 __all__ = ["Duration", "Time", "raw_duration", "raw_time"]
 
 _SECOND: Final = 1_000_000_000
+_EPOCH: Final = datetime(1970, 1, 1, tzinfo=UTC)
+_MICROSECOND: Final = timedelta(microseconds=1)
 _new = object.__new__
 
 _V = TypeVar("_V", bound="_TimeValue")
@@ -49,6 +53,26 @@ def _divide(numerator: int, denominator: int) -> int:
         numerator, denominator = -numerator, -denominator
     quotient, rest = divmod(numerator, denominator)
     return quotient + (2 * rest + (quotient & 1) > denominator)
+
+
+# Fill and alignment, sign, width and thousands; precision; type: what Decimal formats like float.
+_FIXED: Final = re.compile(
+    r"((?:(?:[^0]?[<>=^])?[-+ ]?(?:[1-9]\d*)?|[-+ ]?0\d+),?)(\.\d+)?([fF%]?)", re.DOTALL
+)
+
+
+def _format(nsecs: int, spec: str) -> str:
+    """Seconds as a float is formatted, but exact to the nanosecond in a fixed notation."""
+    match = _FIXED.fullmatch(spec)
+    if match is None or (match[2] and not match[3]):
+        return format(nsecs / _SECOND, spec)  # significant digits, or an error
+    # Imported here because few programs format times.
+    from decimal import Context, Decimal, localcontext
+
+    before, precision, kind = match.groups("")
+    digits = precision or (".6" if kind else ".9")
+    with localcontext(Context()):  # the caller's may round otherwise
+        return format(Decimal(f"{nsecs}e-9"), f"{before}{digits}{kind or 'f'}")
 
 
 class _TimeValue:
@@ -130,6 +154,14 @@ class _TimeValue:
         secs, nsecs = divmod(abs(total), _SECOND)
         return f"{'-' if total < 0 else ''}{secs}.{nsecs:09d}"
 
+    def __format__(self, spec: str) -> str:
+        """Format the seconds like a float: ``f"{time:.2f}"``.
+
+        The types ``f`` and ``%`` are exact to the nanosecond. Without a type and a precision,
+        all nine decimals are shown, as in :func:`str`.
+        """
+        return _format(self.to_nsec(), spec) if spec else str(self)
+
     # Pickling and copying keep the parts as they stand, normalised or not.
     def __reduce__(self) -> tuple[Any, ...]:
         return _raw_value, (type(self), self._secs, self._nsecs)
@@ -165,6 +197,29 @@ class Time(_TimeValue):
     def now(cls) -> Time:
         """This machine's time of day."""
         return cls(0, time_ns())
+
+    @classmethod
+    def from_datetime(cls, moment: datetime) -> Time:
+        """The time of a :class:`~datetime.datetime`, exactly.
+
+        It has to be aware of its time zone: :class:`ValueError` for a naive one, and for one
+        before 1970.
+        """
+        if not isinstance(moment, datetime):
+            raise TypeError(f"expected a datetime, got {moment!r:.200}")
+        if moment.utcoffset() is None:
+            raise ValueError(
+                f"expected a datetime with a time zone, got {moment!r}: use "
+                "datetime.now(timezone.utc), or moment.astimezone() if it is local time"
+            )
+        return cls(0, (moment - _EPOCH) // _MICROSECOND * 1000)
+
+    def to_datetime(self) -> datetime:
+        """The time as an aware :class:`~datetime.datetime` in UTC, to the nearest microsecond.
+
+        Raises :class:`OverflowError` for a time after the year 9999.
+        """
+        return _EPOCH + timedelta(microseconds=_divide(self.to_nsec(), 1000))
 
     def to_time(self) -> float:
         """The same as :meth:`to_sec`: what :func:`time.time` would say."""
@@ -226,6 +281,20 @@ class Duration(_TimeValue):
     """
 
     __slots__ = ()
+
+    @classmethod
+    def from_timedelta(cls, delta: timedelta) -> Duration:
+        """The duration of a :class:`~datetime.timedelta`, exactly."""
+        if not isinstance(delta, timedelta):
+            raise TypeError(f"expected a timedelta, got {delta!r:.200}")
+        return cls(0, delta // _MICROSECOND * 1000)
+
+    def to_timedelta(self) -> timedelta:
+        """The duration as a :class:`~datetime.timedelta`, to the nearest microsecond.
+
+        Raises :class:`OverflowError` for more than 999,999,999 days.
+        """
+        return timedelta(microseconds=_divide(self.to_nsec(), 1000))
 
     def __add__(self, other: Duration) -> Duration:
         if isinstance(other, Duration):

@@ -8,7 +8,13 @@ from collections import deque
 from collections.abc import Callable
 from typing import Self
 
-__all__ = ["Deadlines", "Mutex", "Waiters", "deadline"]
+__all__ = ["Deadlines", "Mutex", "Obstacle", "Waiters", "deadline"]
+
+_LOOK = 0.001
+"""Seconds that a block gets at least when its time is over, for what has arrived already."""
+
+_TURNS = 10
+"""Iterations of the event loop in which what has arrived reaches the task that waits for it."""
 
 
 class Waiters:
@@ -89,6 +95,10 @@ class deadline:  # noqa: N801 - it is used like asyncio.timeout
     sets no limit) and raises :class:`TimeoutError`: "what within N s". A cancellation from
     elsewhere, and a timeout of a caller further up, pass unchanged.
 
+    Time in which the event loop is blocked does not count, up to ``seconds``. What arrives
+    meanwhile waits in the sockets, and the loop looks at its timers before it has read all of
+    it.
+
     It does not wrap :func:`asyncio.timeout`, because that doubles a cost that every request
     pays.
     """
@@ -100,7 +110,9 @@ class deadline:  # noqa: N801 - it is used like asyncio.timeout
         "_seconds",
         "_task",
         "_timer",
+        "_turns",
         "_what",
+        "_when",
         "why",
     )
 
@@ -125,7 +137,8 @@ class deadline:  # noqa: N801 - it is used like asyncio.timeout
         if seconds is not None:
             loop = task.get_loop()
             if seconds > 0:
-                self._timer = loop.call_at(loop.time() + seconds, self._cancel)
+                self._when = loop.time() + seconds
+                self._timer = loop.call_at(self._when, self._time_is_over)
             else:
                 self._timer = loop.call_soon(self._cancel)
         if self._owner is not None:
@@ -159,10 +172,41 @@ class deadline:  # noqa: N801 - it is used like asyncio.timeout
             # Not at once: a task that cancels itself would notice only after the block.
             self._timer = self._task.get_loop().call_soon(self._cancel)
 
+    def _time_is_over(self) -> None:
+        """Prolong the block by the time in which the loop was blocked, and a little."""
+        if self._task is not None:
+            assert self._seconds is not None
+            loop = self._task.get_loop()
+            late = min(loop.time() - self._when, self._seconds)
+            self._turns = _TURNS
+            self._timer = loop.call_later(max(late, _LOOK), self._look)
+
+    def _look(self) -> None:
+        """Let the loop pass on what it has read, from one callback to the next."""
+        if self._task is not None:
+            if not self._turns:
+                self._cancel()
+                return
+            self._turns -= 1
+            self._timer = self._task.get_loop().call_soon(self._look)
+
     def _cancel(self) -> None:
         if self._task is not None:
             self._has_expired = True
             self._task.cancel()
+
+
+class Obstacle:
+    """What is in the way, for :attr:`deadline.why`. Its text is made when it is asked for."""
+
+    def __init__(self, what: Callable[[], str]) -> None:
+        self._what = what
+
+    def __str__(self) -> str:
+        return self._what()
+
+    def __bool__(self) -> bool:
+        return bool(str(self))
 
 
 class Deadlines:

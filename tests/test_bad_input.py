@@ -75,9 +75,9 @@ def test_what_is_no_option(option, value, expected):
 
 async def test_what_cannot_be_called(make_node):
     node = await make_node()
-    with pytest.raises(TypeError, match="a timer calls a function, got 'tick'"):
+    with pytest.raises(TypeError, match="the callback of a timer is a function, got 'tick'"):
         node.timer(1, "tick")
-    with pytest.raises(TypeError, match="service /flip: the handler is a function, got 'flip'"):
+    with pytest.raises(TypeError, match="service flip: the handler is a function, got 'flip'"):
         await node.advertise_service("flip", "std_srvs/Empty", "flip")
 
 

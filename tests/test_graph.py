@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
+import socket
+
 import pytest
 
+import aioros1
 from aioros1.graph import GraphNode, GraphSnapshot
 
 SNAPSHOT = GraphSnapshot(
@@ -58,3 +62,93 @@ async def test_what_a_predicate_raises_is_raised(make_node):
     node = await make_node()
     with pytest.raises(LookupError, match="mine"):
         await node.graph.wait_for(predicate, timeout=30)
+
+
+@pytest.fixture
+def port():
+    with socket.socket() as sock:
+        sock.bind(("127.0.0.1", 0))
+        return sock.getsockname()[1]
+
+
+def watcher_at(port):
+    return aioros1.Node(
+        "watcher",
+        master_uri=f"http://localhost:{port}",
+        host="localhost",
+        heartbeat=0.02,
+        rosout=False,
+        logger_services=False,
+    )
+
+
+def master_at(port):
+    return aioros1.Master(host="localhost", port=port, rosout=False)
+
+
+async def test_changes_go_on_while_the_master_is_away(port):
+    chatter = ("publisher", "/chatter", "/watcher")
+    async with watcher_at(port) as node:
+        changes = node.graph.changes(poll=0.01)
+
+        async def next_with(part):
+            async with asyncio.timeout(30):
+                async for change in changes:
+                    if chatter in getattr(change, part):
+                        return change
+            raise AssertionError("it ended")
+
+        # From before there is a master.
+        change = asyncio.ensure_future(next_with("added"))
+        await asyncio.sleep(0.05)
+        async with master_at(port):
+            await node.wait_for_master(timeout=30)
+            await asyncio.sleep(0.2)  # it has looked once
+            role = await node.advertise("chatter", "std_msgs/String")
+            await change
+        # Without a master nothing is known to have changed.
+        change = asyncio.ensure_future(next_with("removed"))
+        await asyncio.sleep(0.05)
+        assert not change.done()
+        await role.close()
+        async with master_at(port):
+            assert chatter not in (await change).snapshot.publishers
+            change = asyncio.ensure_future(next_with("added"))
+            await node.advertise("chatter", "std_msgs/String")
+            await change
+            await node.close()
+        assert [change async for change in changes] == []
+
+
+async def test_waiting_goes_on_while_the_master_is_away(port):
+    async with watcher_at(port) as node:
+        waiting = asyncio.ensure_future(
+            node.graph.wait_for(lambda graph: "/chatter" in graph.topics, timeout=30)
+        )
+        for _ in range(2):
+            async with master_at(port):
+                await node.wait_for_master(timeout=30)
+            await asyncio.sleep(0.05)
+        assert not waiting.done()
+        async with master_at(port):
+            await node.wait_for_master(timeout=30)
+            await node.advertise("chatter", "std_msgs/String")
+            assert "/chatter" in (await waiting).topics
+            await node.close()
+
+
+async def test_waiting_in_vain_for_a_master_that_is_away_says_so(port):
+    async with watcher_at(port) as node:
+        with pytest.raises(TimeoutError) as late:
+            await node.graph.wait_for(lambda graph: True, timeout=0.2, poll=0.01)
+    assert "the graph did not become as wanted within 0.2 s" in str(late.value)
+    assert f"http://localhost:{port}: cannot connect: Connection refused" in str(late.value)
+
+
+async def test_an_iteration_over_changes_ends_with_the_node_also_without_a_master(port):
+    async with watcher_at(port) as node:
+        changes = node.graph.changes(poll=0.01)
+        waiting = asyncio.ensure_future(anext(changes))
+        await asyncio.sleep(0.05)
+    with pytest.raises(StopAsyncIteration):
+        await waiting

@@ -171,14 +171,18 @@ def test_arguments() -> None:
     ]
     arguments = parse_args(argv)
     assert arguments.remappings == {"a": "b", "/x/y": "~z"}
-    assert arguments.params == {"rate": "10", "text": "a:=b", "empty": ""}
+    assert arguments.params == {"rate": "10", "text": "a:=b"}
     assert arguments.special == {"__name": "other", "__ns": "/robot", "__log": "/tmp/x.log"}
     assert arguments.rest == ["program.py", "--flag", "--opt=a:=b", "-x", "word", "1:=2", ":="]
 
 
-def test_an_argument_that_remaps_to_nothing() -> None:
-    with pytest.raises(InvalidNameError, match="a:=: 'a' is remapped to nothing"):
-        parse_args(["a:="])
+@pytest.mark.parametrize("word", ["a:=", "a:= ", "/a:=", "~a:=", "_a:=", "_a:=  "])
+def test_an_assignment_of_nothing_is_ignored(word: str) -> None:
+    """A launch file has it whose argument is empty."""
+    arguments = parse_args(["a:=b", "_a:=1", word])
+    assert arguments.remappings == {"a": "b"}
+    assert arguments.params == {"a": "1"}
+    assert arguments.rest == []
 
 
 def test_anonymous_names_differ_and_are_names() -> None:
@@ -227,3 +231,18 @@ def test_resolved_names_stay_as_they_are(name: str) -> None:
     assert resolved.startswith("/")
     assert canonicalize(resolved) == resolved
     assert resolve_name(resolved, "/other", "/other/n") == resolved
+
+
+@pytest.mark.parametrize("bad", ["a\x01b", "a\x0cb", "a\ud800b", "\ufffe"])
+def test_names_that_no_master_can_be_told_of(bad: str) -> None:
+    for refused in (
+        lambda: validate(bad),
+        lambda: validate_base_name(bad),
+        lambda: normalize_namespace(bad),
+        lambda: resolve_name(bad, "/", "/node"),
+        lambda: resolve_remappings({"a": bad}, "/", "/node"),
+    ):
+        with pytest.raises(InvalidNameError, match="XML cannot carry"):
+            refused()
+    # The value of a parameter is no name, and a file name may have any bytes.
+    assert parse_args([f"_x:={bad}", f"{bad}.bag"]).params == {"x": bad}

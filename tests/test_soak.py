@@ -17,7 +17,7 @@ sys.path.append(str(Path(__file__).parents[1]))
 from soak.footprint import Footprint
 from soak.messages import Question, Run
 from soak.model import Model
-from soak.scenarios import SCENARIOS
+from soak.scenarios import SCENARIOS, chaos
 
 ROOT = Path(__file__).parents[1]
 
@@ -99,6 +99,34 @@ def test_a_call_that_was_executed_twice_is_noticed() -> None:
     model.answer(request)
     model.settle(set())
     assert model.problems == [f"questions executed more than once: [{question}]"]
+
+
+def test_a_gap_is_noticed_unless_the_connection_is_a_new_one() -> None:
+    model = chaos.Model()
+    flow = chaos.Flow("flow", model)
+    first, second = {"callerid": "/a"}, {"callerid": "/a"}
+    for header, number in ((first, 3), (first, 4), (second, 7), (second, 8)):
+        flow.got(header, number)
+    assert not model.problems
+    assert (model.received, model.connections) == (4, 2)
+    flow.got(second, 10)
+    flow.got(first, 10)
+    assert model.problems == [
+        "flow: 10 came after 8 on one connection",
+        "flow: 10 came after 10 on a new connection",
+    ]
+
+
+def test_a_call_that_was_executed_twice_in_the_chaos_is_noticed() -> None:
+    model = chaos.Model()
+    model.asked = 1
+    model.answer(Question.Request(number=1))
+    model.was_answered(1, 1)
+    model.settle()
+    assert not model.problems
+    model.answer(Question.Request(number=1))
+    model.settle()
+    assert model.problems == ["questions executed more than once: [1]"]
 
 
 def test_a_wrong_answer_is_noticed() -> None:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import copy
+import decimal
 import pickle
+import re
 import time
+from datetime import UTC, date, datetime, timedelta, timezone
 from fractions import Fraction
 from typing import Any
+from zoneinfo import ZoneInfo
 
 import numpy as np
 import pytest
@@ -298,3 +302,113 @@ class TestExactness:
         for value in (t, d):
             cls = load_msg(f"std_msgs/{type(value).__name__}")
             assert cls.from_bytes(cls(data=value).to_bytes()).data == value
+
+
+# Thousands of a second in powers of two: floats that are exactly whole nanoseconds.
+exact = st.integers(-(2**40), 2**40).map(lambda n: n * 1_953_125)
+specs = st.builds(
+    "{}{}{}{}{}".format,
+    st.sampled_from(["", "<", ">", "^", "=", "*<", "->", ",^", "0=", "\n>", "é<"]),
+    st.sampled_from(["", "+", "-", " "]),
+    st.sampled_from(["", "0", "5", "012", "30"]),
+    st.sampled_from(["", ",", "_"]),
+    st.sampled_from([".0f", ".1f", ".2f", ".9f", ".12F", "f", ".1%", "%", ".3e", ".4g", ".3"]),
+)
+
+
+class TestFormat:
+    @given(exact, specs)
+    def test_as_floats_are_formatted(self, nsecs: int, spec: str) -> None:
+        value = Duration.from_nsec(nsecs)
+        assert format(value, spec) == format(nsecs / NANO, spec)
+        if nsecs >= 0:
+            assert format(Time.from_nsec(nsecs), spec) == format(value, spec)
+
+    @given(times, durations, st.sampled_from(["", ".9f", ".12f", ">40", "*=+40,.9f"]))
+    def test_to_the_nanosecond(self, t: Time, d: Duration, spec: str) -> None:
+        for value in (t, d):
+            text = format(value, spec).strip().replace("*", "").replace(",", "")
+            assert Fraction(text) == Fraction(value.to_nsec(), NANO)
+
+    @given(times, st.integers(0, 9))
+    def test_to_the_nearest_of_what_is_shown(self, t: Time, digits: int) -> None:
+        shown = Fraction(f"{t:.{digits}f}")
+        assert shown == round(Fraction(t.to_nsec(), NANO), digits)
+
+    def test_examples(self) -> None:
+        t = Time(1_700_000_000, 123_456_789)
+        assert f"{t}" == str(t) == f"{t:>}" == "1700000000.123456789"
+        assert f"{t:.2f}" == "1700000000.12"
+        assert f"{t:,.0f} s" == "1,700,000,000 s"
+        assert f"{Duration(-0.004):+08.2f}" == "-0000.00"
+        d = Duration(1.5)
+        assert f"{d:>6.1f}|{d:e}|{d:g}" == "   1.5|1.500000e+00|1.5"
+
+    @pytest.mark.parametrize("spec", ["d", "s", "x", "%H:%M", "..2f", ".f", "5.5.5f", "💥💥"])
+    def test_what_floats_refuse(self, spec: str) -> None:
+        with pytest.raises(ValueError, match="ormat") as wrong:
+            format(1.0, spec)
+        with pytest.raises(ValueError, match=re.escape(str(wrong.value))):
+            format(Time(1), spec)
+
+    def test_the_callers_decimal_context_makes_no_difference(self) -> None:
+        with decimal.localcontext(decimal.Context(prec=3, rounding=decimal.ROUND_UP)):
+            assert f"{Time(12345, 123456789):.2f}" == "12345.12"
+
+
+zones = st.sampled_from([UTC, timezone(timedelta(hours=-9, minutes=-30)), ZoneInfo("Europe/Rome")])
+moments = st.datetimes(datetime(1970, 1, 2), datetime(9999, 12, 30), timezones=zones)
+deltas = st.timedeltas()
+
+
+class TestDatetime:
+    @given(moments)
+    def test_a_datetime_survives(self, moment: datetime) -> None:
+        t = Time.from_datetime(moment)
+        assert t.to_datetime() == moment.astimezone(UTC)
+        assert t.to_datetime().tzinfo is UTC
+        assert t.nsecs % 1000 == 0
+        assert abs(t.to_sec() - moment.timestamp()) < 1e-4
+
+    @given(times)
+    def test_a_time_is_rounded_to_the_nearest_microsecond(self, t: Time) -> None:
+        moment = t.to_datetime()
+        assert moment.utcoffset() == timedelta(0)
+        back = Time.from_datetime(moment)
+        assert abs((back - t).to_nsec()) <= 500
+        assert Time.from_datetime(back.to_datetime()) == back
+
+    @given(deltas)
+    def test_a_timedelta_survives(self, delta: timedelta) -> None:
+        assert Duration.from_timedelta(delta).to_timedelta() == delta
+
+    @given(durations)
+    def test_a_duration_is_rounded_to_the_nearest_microsecond(self, d: Duration) -> None:
+        back = Duration.from_timedelta(d.to_timedelta())
+        assert abs((back - d).to_nsec()) <= 500
+        assert (-d).to_timedelta() == -d.to_timedelta()
+
+    def test_differences_agree(self) -> None:
+        first, second = datetime(2026, 3, 29, 1, tzinfo=UTC), datetime(2026, 3, 30, tzinfo=UTC)
+        difference = Time.from_datetime(second) - Time.from_datetime(first)
+        assert difference.to_timedelta() == second - first
+
+    def test_an_hour_that_comes_twice(self) -> None:
+        rome = ZoneInfo("Europe/Rome")
+        first, second = (datetime(2026, 10, 25, 2, 30, tzinfo=rome, fold=fold) for fold in (0, 1))
+        assert Time.from_datetime(second) - Time.from_datetime(first) == Duration(3600)
+
+    def test_what_is_refused(self) -> None:
+        with pytest.raises(ValueError, match=r"expected a datetime with a time zone, got datetime"):
+            Time.from_datetime(datetime(2026, 1, 1))
+        with pytest.raises(ValueError, match="before the epoch"):
+            Time.from_datetime(datetime(1969, 12, 31, tzinfo=UTC))
+        with pytest.raises(OverflowError):
+            Time(1 << 50).to_datetime()
+        with pytest.raises(OverflowError):
+            Duration(1 << 60).to_timedelta()
+        for wrong in (1.5, date(2026, 1, 1), None, "2026-01-01", Time(1)):
+            with pytest.raises(TypeError, match="expected a datetime, got"):
+                Time.from_datetime(wrong)  # type: ignore[arg-type]
+            with pytest.raises(TypeError, match="expected a timedelta, got"):
+                Duration.from_timedelta(wrong)  # type: ignore[arg-type]

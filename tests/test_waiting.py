@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import socket
+import time
 import weakref
 
 import pytest
@@ -270,3 +272,56 @@ def test_a_mutex_belongs_to_no_event_loop_until_somebody_waits() -> None:
         asyncio.run(acquired(mutex, [], 0))
     with pytest.raises(RuntimeError, match="nobody holds"):
         mutex.release()
+
+
+# a loop that is blocked
+
+
+async def _echo(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    while data := await reader.read(100):
+        writer.write(data)
+    writer.close()
+
+
+@pytest.mark.parametrize("seconds", [0.02, 0.1])
+async def test_what_came_in_time_counts_though_the_loop_looks_later(seconds: float) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        reader, writer = await asyncio.open_connection(*server.getsockname())
+        peer, _ = server.accept()
+        with peer:
+            async with deadline(seconds, "no answer"):
+                asyncio.get_running_loop().call_soon(_answer_and_block, peer, seconds)
+                assert await reader.read(100) == b"here"
+        writer.close()
+
+
+def _answer_and_block(peer: socket.socket, seconds: float) -> None:
+    peer.send(b"here")
+    time.sleep(2 * seconds)
+
+
+async def test_time_in_which_the_loop_was_blocked_is_given_back() -> None:
+    """Connecting and asking takes several iterations of the loop, which a look is too short for."""
+    server = await asyncio.start_server(_echo, "127.0.0.1", 0)
+    address = server.sockets[0].getsockname()
+    async with server:
+        async with deadline(0.2, "no answer"):
+            asyncio.get_running_loop().call_soon(time.sleep, 0.5)
+            reader, writer = await asyncio.open_connection(*address)
+            writer.write(b"here")
+            assert await reader.read(100) == b"here"
+        writer.close()
+        await writer.wait_closed()
+
+
+async def test_a_loop_that_is_always_blocked_makes_no_limit_endless() -> None:
+    async def block() -> None:
+        while True:
+            asyncio.get_running_loop().call_soon(time.sleep, 0.01)
+            await asyncio.sleep(0)
+
+    blocking = asyncio.create_task(block())
+    with pytest.raises(TimeoutError, match="no answer within"):
+        async with deadline(0.05, "no answer"):
+            await asyncio.Event().wait()
+    blocking.cancel()

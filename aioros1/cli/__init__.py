@@ -6,6 +6,7 @@ import io
 import os
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 
 __all__ = ["main"]
 
@@ -16,6 +17,13 @@ def main(argv: Sequence[str] | None = None) -> None:
     Ends with :class:`SystemExit`: 0 for success, 1 for failure, 2 for wrong usage or
     without the extra. What went wrong is said on standard error.
     """
+    words = list(sys.argv[1:] if argv is None else argv)
+    if words[:1] in (["master"], ["core"]) and all(map(find_spec, ("cyclopts", "rich"))):
+        from aioros1.cli.serve import plain_options, run
+
+        # Others wait for a master, and importing what reads words takes as long as the rest.
+        if (options := plain_options(words[1:])) is not None:
+            raise SystemExit(run(**options))
     try:
         import cyclopts
         import rich  # noqa: F401
@@ -32,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         sys.stdout.reconfigure(errors="backslashreplace")
     try:
         try:
-            make_app()(list(sys.argv[1:] if argv is None else argv), exit_on_error=False)
+            make_app()(words, exit_on_error=False)
         finally:
             sys.stdout.flush()
     except cyclopts.CycloptsError:  # which has been printed

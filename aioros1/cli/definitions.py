@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable
+from difflib import get_close_matches
 from os.path import abspath
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from cyclopts import App, Parameter
 from cyclopts.types import ExistingDirectory
 
-from aioros1 import InvalidNameError, MessageError, MessageNotFoundError
+from aioros1 import MessageError, MessageNotFoundError
 from aioros1.cli import _catalog
 
 if TYPE_CHECKING:
@@ -111,7 +112,8 @@ class _Commands:
         if not found:
             raise MessageNotFoundError(
                 f"no type of {KINDS[self.kind]} {name} in any package; "
-                f"searched: {', '.join(store.places())}{self._hint(store, name)}"
+                f"searched: {', '.join(store.places())}"
+                f"{_did_you_mean(store.suggest(name, self.kind))}{self._hint(store, name)}"
             )
         failed = False
         for each in found:
@@ -131,17 +133,12 @@ class _Commands:
         }
         try:
             return load[self.kind](name)
-        except InvalidNameError as error:
-            raise InvalidNameError(f"{error}{self._hint(store, name)}") from None
         except MessageNotFoundError as error:
             raise MessageNotFoundError(f"{error}{self._hint(store, name)}") from None
 
     def _hint(self, store: MessageStore, name: str) -> str:
-        """What may have been meant by a name, on lines of their own, if anything."""
-        known = _catalog.all_types(store, self.kind)
-        if name in known:
-            return ""  # it is not this name that is wrong, but one inside
-        hint = _did_you_mean(name, known)
+        """The commands that show a type of another kind, on lines of their own."""
+        hint = ""
         for kind, word in KINDS.items():
             for other in _catalog.all_types(store, kind) if kind != self.kind else ():
                 if other == name or other.endswith(f"/{name}"):
@@ -177,7 +174,8 @@ class _Commands:
         if not names and package not in (known := store.packages()):
             raise MessageNotFoundError(
                 f"no package {package!r} with definitions; "
-                f"searched: {', '.join(store.places())}{_did_you_mean(package, known)}"
+                f"searched: {', '.join(store.places())}"
+                f"{_did_you_mean(get_close_matches(package, known))}"
             )
         _print_names(names, single_line)
 
@@ -225,11 +223,8 @@ def _from_stdin() -> str:
     raise SystemExit(2)
 
 
-def _did_you_mean(name: str, known: Iterable[str]) -> str:
-    *others, last = _catalog.near_misses(name, known) or [""]
-    if not last:
-        return ""
-    return f"\ndid you mean {', '.join(others)} or {last}?" if others else f"\ndid you mean {last}?"
+def _did_you_mean(names: list[str]) -> str:
+    return f"; did you mean {' or '.join(names)}?" if names else ""
 
 
 def _print_names(names: Iterable[str], single_line: bool = False) -> None:

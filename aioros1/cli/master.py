@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
-import signal
-import sys
 from typing import Annotated, TypeAlias
 
 from cyclopts import Parameter
+
+from aioros1.cli.serve import run
 
 __all__ = ["master"]
 
@@ -41,45 +40,4 @@ def master(
         The numeric address to listen on, if host does not say it: 127.0.0.1, or that of one
         interface.
     """
-    import asyncio  # here, as is the master below: other commands and the help need neither
-
-    raise SystemExit(asyncio.run(_serve(host, port, bind, allow or None)))
-
-
-async def _serve(
-    host: str | None, port: int, bind: str | None, allow: tuple[str, ...] | None
-) -> int:
-    import asyncio
-
-    from aioros1 import Master
-
-    stop = asyncio.Event()
-    loop = asyncio.get_running_loop()
-    with contextlib.suppress(NotImplementedError):  # Windows has KeyboardInterrupt instead
-        for number in (signal.SIGINT, signal.SIGTERM):
-            loop.add_signal_handler(number, stop.set)
-    try:
-        core = Master(host, port, bind=bind, allow=allow)
-        await core.start()
-    except (OSError, ValueError) as error:
-        print(f"aioros1 master: {_text(error)}", file=sys.stderr)
-        return 1
-    try:
-        print(f"ROS_MASTER_URI={core.uri}", flush=True)
-        waiting = {
-            asyncio.create_task(stop.wait(), name="aioros1-cli-signal"),
-            asyncio.create_task(core.wait_closed(), name="aioros1-cli-closed"),
-        }
-        try:
-            await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for task in waiting:
-                task.cancel()
-            await asyncio.gather(*waiting, return_exceptions=True)
-    finally:
-        await core.close()
-    return 0
-
-
-def _text(error: Exception) -> str:
-    return (error.strerror if isinstance(error, OSError) else None) or str(error)
+    raise SystemExit(run(port=port, host=host, bind=bind, allow=allow))

@@ -121,6 +121,10 @@ def to_nanoseconds(duration: float | Duration) -> int:
     """Round to the nearest nanosecond; exact for a :class:`~aioros1.Duration`."""
     if isinstance(duration, Duration):
         return duration.to_nsec()
+    if not hasattr(duration, "__float__"):
+        raise TypeError(
+            f"a time to wait is a Duration or a number of seconds, got {duration!r:.200}"
+        )
     if not math.isfinite(duration):
         raise ValueError(f"a time to wait must be finite, got {duration!r}")
     return Duration(duration).to_nsec()

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Self
+from typing import TYPE_CHECKING, Any, Self
 
 from aioros1._public import public
 from aioros1.clock.clock import Clock
 from aioros1.errors import ClosedError
+from aioros1.hints import RATE_HABITS, explained_attributes
 from aioros1.time import Time
 
 __all__ = ["Rate", "period_of"]
@@ -24,6 +25,15 @@ class Rate:
     """
 
     # Not a generator: the first cancellation, or a timeout around one tick, would end it.
+
+    if not TYPE_CHECKING:
+
+        def __new__(cls, *args: Any, **kwargs: Any) -> Self:
+            if not (args and isinstance(args[0], Clock)):
+                raise TypeError("a rate needs a node: use node.rate(hz) in place of Rate(...)")
+            return super().__new__(cls)
+
+        __getattr__ = explained_attributes(RATE_HABITS)
 
     def __init__(self, clock: Clock, period: int) -> None:
         self.missed = 0
@@ -89,6 +99,8 @@ class Rate:
 
 def period_of(hz: float) -> int:
     """The period in nanoseconds. Raises :class:`ValueError` for a rate that is not positive."""
+    if not hasattr(hz, "__float__") or not hasattr(hz, "__lt__"):
+        raise TypeError(f"a rate is a number of Hz, got {hz!r:.200}")
     if not 0 < hz < math.inf or not math.isfinite(period := 1e9 / float(hz)):
         raise ValueError(f"a rate must be positive, got {hz!r}")
     return round(period)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 from aioros1._public import public
 from aioros1.clock.clock import Clock, to_nanoseconds
 from aioros1.clock.rate import Rate
+from aioros1.hints import check_takes
 from aioros1.net.loop_state import loop_state
 from aioros1.time import Duration, Time
 
@@ -27,6 +28,15 @@ class Spawn(Protocol):
 class Timer:
     """Calls a function periodically; made by :meth:`aioros1.Node.timer`."""
 
+    if not TYPE_CHECKING:
+
+        def __new__(cls, *args: Any, **kwargs: Any) -> Self:
+            if not (args and isinstance(args[0], Clock)):
+                raise TypeError(
+                    "a timer needs a node: use node.timer(period, callback) in place of Timer(...)"
+                )
+            return super().__new__(cls)
+
     def __init__(
         self,
         clock: Clock,
@@ -37,8 +47,7 @@ class Timer:
         *,
         oneshot: bool = False,
     ) -> None:
-        if not callable(callback):
-            raise TypeError(f"a timer calls a function, got {callback!r}")
+        check_takes(callback, "the callback of a timer", "the time")
         nanoseconds = to_nanoseconds(period)
         if not nanoseconds > 0:
             raise ValueError(f"the period of a timer must be positive, got {period!r}")
@@ -63,8 +72,8 @@ class Timer:
                     await result
             except BaseException as error:  # of the user's code
                 self._on_error(error, "the callback of a timer")
-            if self._oneshot:
-                return
+            if self._oneshot or self._task.cancelling():
+                return  # a callback may have caught its cancellation
 
     def __repr__(self) -> str:
         what = "once after" if self._oneshot else "every"

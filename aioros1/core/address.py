@@ -30,14 +30,19 @@ class Address:
     @property
     def uri(self) -> str:
         """The URI of the slave API."""
-        return f"http://{uri_host(self.host)}:{self.xmlrpc_port}/"
+        return f"http://{uri_host(self.host)}:{self._open(self.xmlrpc_port)}/"
 
     @property
     def tcpros(self) -> tuple[str, int]:
         """The host and port for topics and services."""
-        return self.host, self.tcpros_port
+        return self.host, self._open(self.tcpros_port)
 
     @property
     def tcpros_uri(self) -> str:
         """The URI the node registers its services with."""
-        return f"rosrpc://{uri_host(self.host)}:{self.tcpros_port}"
+        return f"rosrpc://{uri_host(self.host)}:{self._open(self.tcpros_port)}"
+
+    def _open(self, port: int) -> int:
+        if not port:
+            raise RuntimeError(f"node {self._node_name} has no address before it is started")
+        return port

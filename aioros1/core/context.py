@@ -14,10 +14,12 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from aioros1 import names
 from aioros1.core.connections import Connections
+from aioros1.core.contact import Contact
 from aioros1.core.dialling import Dialling
-from aioros1.core.user_errors import is_end, reportable
+from aioros1.core.user_errors import described, is_end, leave_loop, reportable
 from aioros1.errors import ClosedError
 from aioros1.events import Broadcast, Event
+from aioros1.log.library_log import LibraryLog
 from aioros1.net.budget import Budget
 
 if TYPE_CHECKING:
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from aioros1.core.registrations import Registrations
     from aioros1.core.supervisor import Supervisor
     from aioros1.core.user_errors import UserErrors
+    from aioros1.core.user_tasks import UserTasks
     from aioros1.idl import MessageStore
     from aioros1.log.node_log import NodeLog
     from aioros1.net.loop_state import LoopState
@@ -69,6 +72,7 @@ class Context:
         address: Address,
         supervisor: Supervisor,
         user_errors: UserErrors,
+        user_tasks: UserTasks,
         xmlrpc: XmlRpcClient,
         master: MasterProxy,
         registrar: MasterProxy,
@@ -81,7 +85,10 @@ class Context:
         self.options = options
         self.timeouts: Timeouts = options.timeouts
         self.limits: Limits = options.limits
-        self.log = log
+        self.log = LibraryLog(log)
+        """What the node says itself; ``node.log`` is for users."""
+        self.loggers = log.names
+        """The names of the loggers published on ``/rosout``; the first is the node's own."""
         self.clock = clock
         self.store = store
         """Resolves type names."""
@@ -108,10 +115,14 @@ class Context:
         """Send an event to everyone who iterates over the node's events."""
         self.spawn = supervisor.spawn
         """Run a function in a task that ends with the node; see :meth:`.Supervisor.spawn`."""
+        self.spawn_user = user_tasks.spawn
+        """The same for a function of the user's; see :meth:`.UserTasks.spawn`."""
         self.pause = supervisor.pause
-        """Sleep until the node begins to close; see :meth:`.Supervisor.pause`."""
+        """Sleep until the node is closing; see :meth:`.Supervisor.pause`."""
         self.loop_state: LoopState
         """The library's state for the node's event loop; set when the node starts."""
+        self.contact = Contact(options.without_master, master.uri, self.log, self.pause)
+        """Says what happens while no master answers."""
         self._remappings = remappings
         self._supervisor = supervisor
         self._user_errors = user_errors
@@ -144,6 +155,8 @@ class Context:
         if supervisor.state != "open":
             reason = supervisor.reason
             why = f" ({reason})" if reason is not None else ""
+            if supervisor.state == "new":
+                why = ": start it first, with `async with` or with `await node.start()`"
             raise ClosedError(f"node {self.name} is {supervisor.state}, not open{why}")
         if get_ident() != self.loop_state.thread_id:
             self.check_loop()
@@ -177,17 +190,37 @@ class Context:
 
     def report(self, error: BaseException, what: str) -> None:
         """Log an internal or unexpected error."""
-        self.log.error("%s failed: %r", what, error, exc_info=error)
+        what_it_is = f"{type(error).__name__}: {described(error)}"
+        self.log.error("%s failed: %s", what, what_it_is, exc_info=error)
 
     def user_error(self, error: BaseException, what: str) -> None:
         """Handle an exception from the user's code as the node's ``on_error`` says.
 
-        Once the node is closing, a closed node or role no longer counts as an error. Raises
-        ``error`` if it has to go on: a cancellation of the running task, or the end of the
-        program.
+        Once the node was told to end, a closed node or role no longer counts as an error. The
+        end of the program goes to the event loop. Raises ``error`` if it cancels the running
+        task.
         """
+        if self.loop_state.loop.is_closed():
+            raise error  # Python drops the coroutine that it is raised in
         reported = reportable(error)
-        if reported is None:
+        if isinstance(error, (SystemExit, KeyboardInterrupt)):
+            # Not raised here: some event loops drop what a callback of a transport raises.
+            leave_loop(error)
+        elif reported is None:
             raise error
-        if self.is_open or not is_end(reported):
+        elif self.close_reason is None or not is_end(reported):
             self._user_errors.handle(reported, what)
+
+    def handler_error(self, error: BaseException, what: str) -> BaseException:
+        """Handle what a service handler raised although it is no :class:`Exception`, and return
+        the error for the caller. Raises ``error`` if it cancels the running task."""
+        if self.loop_state.loop.is_closed():
+            raise error
+        reported = reportable(error)
+        if reported is not None:
+            self._user_errors.handle_answered(reported, what)
+            return reported
+        if not isinstance(error, (SystemExit, KeyboardInterrupt)):
+            raise error
+        leave_loop(error)
+        return error

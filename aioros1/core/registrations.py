@@ -5,13 +5,8 @@ from __future__ import annotations
 import asyncio
 
 from aioros1.core.registration import Registration, Tell, Terms
-from aioros1.errors import ClosedError, MasterError
 
-__all__ = ["AT_ONCE", "Registrations"]
-
-AT_ONCE = 6
-"""Registration requests that may be in progress at a time. They have no timeout. The limit
-leaves connections for requests that check for the master even if it answers none of these."""
+__all__ = ["Registrations"]
 
 
 class Registrations:
@@ -37,15 +32,37 @@ class Registrations:
         registration.adopt(register, unregister)
         return registration
 
+    async def renew(self) -> list[Exception]:
+        """Register everything again, concurrently; return the errors of those that failed.
+
+        An entry that fails is tried again with :meth:`push`, and does not delay the others.
+        """
+        entries = self.all
+        results = await asyncio.gather(
+            *(entry.renew() for entry in entries), return_exceptions=True
+        )
+        failures = []
+        for entry, result in zip(entries, results, strict=True):
+            if isinstance(result, Exception):
+                failures.append(result)
+                entry.complain(result)
+        return failures
+
+    async def withdraw(self) -> None:
+        """Unregister everything until :meth:`renew`, as far as the master answers."""
+        withdrawing = [entry.withdraw() for entry in self.all]
+        await asyncio.gather(*withdrawing, return_exceptions=True)
+
+    def push(self) -> None:
+        """Repeat requests to the master that failed or may have been lost; never waits."""
+        for entry in self.all:
+            entry.push()
+
     async def end(self, *, only_unfinished: bool = False) -> None:
-        """Unregister everything for good, even entries that have users."""
+        """Unregister everything for good, even entries that have users, as far as possible."""
         ending = [
             registration.end()
             for registration in self.all
             if not (only_unfinished and registration.is_established)
         ]
-        for error in await asyncio.gather(*ending, return_exceptions=True):
-            if isinstance(error, BaseException) and not isinstance(
-                error, MasterError | ClosedError
-            ):
-                raise error
+        await asyncio.gather(*ending, return_exceptions=True)

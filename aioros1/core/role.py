@@ -7,7 +7,7 @@ import builtins
 from abc import ABC, abstractmethod
 from threading import get_ident
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from aioros1._public import public
 from aioros1.connection import ConnectionInfo
@@ -28,6 +28,18 @@ class Role(ABC):
 
     kind = "role"
     """The kind of role, in a word or two."""
+
+    _factory: ClassVar[str] = ""  # the method of a node that opens it
+
+    if not TYPE_CHECKING:
+
+        def __new__(cls, *args: Any, **kwargs: Any) -> Self:
+            if not (args and isinstance(args[0], Context)):
+                raise TypeError(
+                    f"a {cls.kind} needs a node: use `await node.{cls._factory}(...)` in place of "
+                    f"{cls.__name__}(...)"
+                )
+            return super().__new__(cls)
 
     def __init__(self, context: Context, name: str) -> None:
         self._context = context
@@ -79,6 +91,12 @@ class Role(ABC):
         You may call it any number of times. If the master is unreachable, the error is logged
         and not raised. If you cancel the call, closing continues.
         """
+        self._start_closing()
+        if self._closing is not None:
+            await asyncio.wait({self._closing})
+
+    def _start_closing(self) -> None:
+        """Close in a task of the node, which goes on when whoever waits for it is cancelled."""
         if self._is_open:
             if get_ident() != self._loop_state.thread_id:
                 self._context.check_loop()
@@ -86,8 +104,10 @@ class Role(ABC):
             self._closing = self._context.spawn(
                 self._finish, name=f"close {self.kind} {self._name}"
             )
-        if self._closing is not None:
-            await asyncio.wait({self._closing})
+
+    @property
+    def _is_closing(self) -> bool:
+        return self._closing is not None and not self._closing.done()
 
     async def _finish(self) -> None:
         try:

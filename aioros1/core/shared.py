@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from typing import Any, ClassVar, Generic, TypeVar
 
 from aioros1.core.context import Context
-from aioros1.errors import ClosedError, MasterError
+from aioros1.options import WithoutMaster
 
 __all__ = ["Shared"]
 
@@ -34,13 +34,16 @@ class Shared(ABC, Generic[R]):
         """The roles that use it, in the order they acquired it."""
         self._context = context
         self._table = table
+        self.was_deferred = False
+        """Whether a role was opened without a master."""
         table[name] = self
         self.registration = context.registrations.entry(
             self.kind, name, self._register, self._unregister
         )
 
-    async def acquire(self, role: R) -> None:
-        """Add ``role``; return when the master has accepted the registration.
+    async def acquire(self, role: R, without_master: WithoutMaster = "raise") -> None:
+        """Add ``role``; return when the master has accepted the registration, or when
+        ``without_master`` says so.
 
         Raises the master's error, :class:`~aioros1.MasterUnreachable` and
         :class:`~aioros1.ClosedError`; the role is not added then.
@@ -48,13 +51,26 @@ class Shared(ABC, Generic[R]):
         # Peers may connect as soon as the master has registered us, before it answers us.
         self._join(role)
         try:
-            await self.registration.acquire()
+            await self._acquire(without_master)
         except BaseException:
             self._part(role)
             if not self.roles:
                 self.abort()  # a peer may have connected already
             self._leave_table()
             raise
+
+    async def _acquire(self, without_master: WithoutMaster) -> None:
+        registration, contact = self.registration, self._context.contact
+        if without_master == "wait":
+            await contact.reach(registration.acquire)
+        elif without_master == "later" and contact.obstacle:
+            # It was missed a moment ago: a back end that opens many roles does not wait for
+            # each of them. The heartbeat notices when it is back.
+            registration.defer()
+            self.was_deferred = True
+        elif not await registration.acquire(may_defer=without_master == "later"):
+            self.was_deferred = True
+            contact.deferred()
 
     async def leave(self, role: R) -> None:
         """Remove ``role``; after the last one, unregister from the master."""
@@ -63,7 +79,7 @@ class Shared(ABC, Generic[R]):
             await self._let_go()
         try:
             await self.registration.release()
-        except (MasterError, ClosedError) as error:
+        except Exception as error:  # whatever it is, the rest must be freed
             self._context.log.debug("%s %s cannot be unregistered: %s", self.kind, self.name, error)
         self._leave_table()
         if not self.roles:

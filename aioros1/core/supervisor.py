@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Awaitable, Callable
 from typing import Any, Literal, Protocol
 
+from aioros1.core.user_errors import described, leave_loop, reportable
 from aioros1.errors import ClosedError
 
 __all__ = ["Life", "State", "Supervisor"]
@@ -20,6 +21,9 @@ class Life(Protocol):
 
     async def begin(self) -> None:
         """Start. The node is usable when this returns."""
+
+    async def wind_down(self) -> None:
+        """Let the user's code end, while everything can still be used."""
 
     async def finish(self) -> None:
         """Tell others that the node ends, as far as they respond."""
@@ -46,14 +50,17 @@ class Supervisor:
         self.state: State = "new"
         """The state of the node, which the steps of its life set."""
         self._group: asyncio.TaskGroup | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
         self._task: asyncio.Task[None] | None = None
         self._end: asyncio.Event = asyncio.Event()
+        self._is_closing: asyncio.Event = asyncio.Event()
         self.reason: str | None = None
         """Why the node ends; None until something ends it."""
 
     async def start(self) -> None:
         """Return when the node has started; raise what that raises."""
-        begun = asyncio.get_running_loop().create_future()
+        self._loop = asyncio.get_running_loop()
+        begun = self._loop.create_future()
         self._task = asyncio.create_task(self._run(begun), name=f"{self._name} supervisor")
         try:
             await asyncio.shield(begun)
@@ -78,10 +85,10 @@ class Supervisor:
             await asyncio.wait({self._task})
 
     async def pause(self, seconds: float) -> None:
-        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the node starts to end."""
+        """Sleep. Raises :class:`~aioros1.ClosedError` as soon as the node is closing."""
         try:
             async with asyncio.timeout(seconds):
-                await self._end.wait()
+                await self._is_closing.wait()
         except TimeoutError:
             return
         raise ClosedError(f"{self._name} is closed ({self.reason})")
@@ -96,17 +103,39 @@ class Supervisor:
         # Takes a function: Python would warn of a coroutine that is never started.
         if self._group is None:
             raise ClosedError(f"{self._name} is closed")
-        return self._group.create_task(self._guarded(function, args, name), name=name)
+        return self._group.create_task(self.guard(function, args, name), name=name)
 
-    async def _guarded(
+    async def guard(
         self, function: Callable[..., Awaitable[Any]], args: tuple[Any, ...], name: str
     ) -> None:
+        """Await ``function(*args)``, and report its exceptions: one broken task must not stop
+        the others, nor end without a word.
+
+        Only a cancellation of the task passes. The end of the program goes to the event loop
+        itself: in a task it would cancel all others of the group.
+        """
         try:
             await function(*args)
         except ClosedError:
             pass  # it used something that closed meanwhile
-        except Exception as error:  # one broken task must not stop the others
-            self._report(error, name)
+        except BaseException as error:
+            if self._is_forgotten:
+                if isinstance(error, GeneratorExit):
+                    raise
+                return  # it could not clean up
+            if isinstance(error, (SystemExit, KeyboardInterrupt)):
+                leave_loop(error)
+                return
+            reported = reportable(error)
+            if reported is None:
+                raise
+            self._report(reported, name)
+
+    @property
+    def _is_forgotten(self) -> bool:
+        """Whether the event loop was closed, and Python drops the tasks. Nothing can be awaited
+        or scheduled then."""
+        return self._loop is not None and self._loop.is_closed()
 
     async def _run(self, begun: asyncio.Future[None]) -> None:
         try:
@@ -116,25 +145,33 @@ class Supervisor:
                     if not begun.done():
                         begun.set_result(None)
                     await self._end.wait()
+                    await self._life.wind_down()
+                    self._is_closing.set()
                     await self._life.finish()
                 finally:
                     self._group = None
-                    await self._life.free()
+                    if not self._is_forgotten:
+                        self._is_closing.set()
+                        await self._life.free()
                 raise _TheEndError
         except* _TheEndError:
             pass
         except* Exception as errors:
             error = errors.exceptions[0] if len(errors.exceptions) == 1 else errors
-            self.end(str(error))
-            if begun.done():
+            if self._is_forgotten:
+                pass  # the task group could not cancel its tasks
+            elif begun.done():
+                self.end(described(error))
                 self._report(error, self._name)
             else:
+                self.end(described(error))
                 begun.set_exception(error)
         finally:
-            forgotten = self.reason is None
-            self.end("the event loop has ended")
+            was_closed = self.reason is not None
+            if not was_closed:
+                self.reason = "the event loop has ended"
             self._life.drop()
-            if forgotten:  # last, because a warning may be an exception
+            if not was_closed:  # last, because a warning may be an exception
                 warnings.warn(f"{self._name} was never closed", ResourceWarning, stacklevel=1)
 
 

@@ -96,7 +96,10 @@ def _slow_path(cls: type[Structure]) -> Callable[[Any, Exception], bytes]:
                 pass
             else:
                 return octets
-        clean = normalise(cls, message)
+        try:
+            clean = normalise(cls, message)
+        except SerializationError as error:
+            raise error.locate(cls._type)  # noqa: B904 - it is the same error
         try:
             octets = encode_escaped(clean)
         except Exception as exc:

@@ -48,8 +48,22 @@ def convert(cls: type[_M], value: Any) -> Any:
         if other == cls._type:
             what += f" of another definition (MD5 sum {getattr(kind, '_md5sum', '?')})"
     else:
-        what = describe(value)
+        what = f"{describe(value)}: {_how_to_give(cls, value)}"
     raise SerializationError(f"expected a {cls._type}, got {what}")
+
+
+def _how_to_give(cls: type[Structure], value: Any) -> str:
+    """What to write in place of a value that is no message."""
+    if isinstance(value, type):
+        return "make a message of the class first"
+    if hasattr(value, "__await__"):
+        return "await it first"
+    names = [field.name for field in cls._fields]
+    if not names:
+        return "it has no fields, give nothing"
+    if len(names) == 1:
+        return f"give its field by name, as in {names[0]}={describe(value)}"
+    return f"give its fields by name, as in {', '.join(f'{name}=...' for name in names)}"
 
 
 # -- to dicts ------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar
+from typing import IO, TYPE_CHECKING, Any, ClassVar, NoReturn, TypeAlias, TypeVar
 
 from aioros1._public import public
 from aioros1.idl.compiled import CODEC, compiled
@@ -16,10 +16,14 @@ from aioros1.idl.convert import arrays_to_numpy, from_dict, to_dict, values_equa
 from aioros1.idl.structure import Structure
 from aioros1.idl.values import own_memory
 
+__all__ = ["AnyMessage", "Message"]
+
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
-__all__ = ["AnyMessage", "Message"]
+    Writable: TypeAlias = SupportsWrite[bytes]
+else:
+    Writable = IO[bytes]
 
 _M = TypeVar("_M", bound="Message")
 _new = object.__new__
@@ -102,7 +106,7 @@ class Message(Structure):
         message: _M = cls._from_bytes(buffer, views=views)
         return message
 
-    def serialize(self, buff: SupportsWrite[bytes]) -> None:
+    def serialize(self, buff: Writable) -> None:
         """genpy's :meth:`to_bytes`: write the bytes to a file-like object."""
         buff.write(type(self)._encode(self))
 
@@ -113,7 +117,7 @@ class Message(Structure):
             setattr(self, name, getattr(message, name))
         return self
 
-    def serialize_numpy(self, buff: SupportsWrite[bytes], numpy: Any) -> None:
+    def serialize_numpy(self, buff: Writable, numpy: Any) -> None:
         """genpy's variant for NumPy arrays, which :meth:`serialize` takes anyway."""
         buff.write(type(self)._encode(self))
 
@@ -268,8 +272,12 @@ def _take_place(cls: type[Message], name: str, function: Any) -> None:
 def _separate(cls: type[Message]) -> None:
     """Give a class that a user has derived from a message class a codec of its own.
 
-    It decodes to itself then, and not to the class that it is derived from.
+    It decodes to itself then, and not to the class that it is derived from. Its fields are
+    those of that class: ``__slots__`` names them, and not what the user puts beside them.
     """
+    if "__slots__" in cls.__dict__:
+        origin: Any = next(base for base in cls.__mro__ if "_type" in base.__dict__)
+        cls.__slots__ = origin.__slots__
     for name in CODEC:
         setattr(cls, name, compiled(name))
     for base in cls.__mro__:

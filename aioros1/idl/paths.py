@@ -172,9 +172,17 @@ class SearchPath:
             for path in directory.glob(f"*.{kind}")
         }
 
+    def candidates(self, *, given: bool = False) -> set[str]:
+        """The names that packages may have, by the directories there are: quick to say.
+
+        With ``given``, only in directories that the user named, here or in the environment.
+        """
+        roots = [root for root in self._roots() if root.crawl or not given]
+        return set().union(*(root.packages() for root in roots))
+
     def packages(self) -> set[str]:
         """The packages that have definitions of any kind."""
-        names = set().union(*(root.packages() for root in self._roots()))
+        names = self.candidates()
         return {name for name in names if any(self.types(name, kind) for kind in KINDS)}
 
     def places(self) -> list[str]:

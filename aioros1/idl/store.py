@@ -12,7 +12,7 @@ from threading import RLock
 from typing import Any, Final, TypeAlias, TypeVar
 
 from aioros1._public import public
-from aioros1.errors import MessageNotFoundError, MessageSpecError
+from aioros1.errors import InvalidNameError, MessageNotFoundError, MessageSpecError
 from aioros1.idl import digest
 from aioros1.idl.building import (
     ACTION_SUFFIXES,
@@ -27,13 +27,13 @@ from aioros1.idl.building import (
     join_service,
     needed_by,
 )
-from aioros1.idl.check import describe
 from aioros1.idl.factory import specs_of
 from aioros1.idl.message import AnyMessage
 from aioros1.idl.parser import action_texts, parse_action, parse_message, parse_service, split_type
 from aioros1.idl.paths import KINDS, Kind, SearchPath
 from aioros1.idl.service import AnyAction, AnyService
 from aioros1.idl.spec import MessageSpec
+from aioros1.idl.wrong_types import near_types, not_a_type, of_another_kind
 
 __all__ = [
     "MessageStore",
@@ -103,36 +103,27 @@ class MessageStore:
         inside it, :class:`MessageSpecError` if a definition cannot be read, and
         :class:`InvalidNameError` if ``type`` is not such a name.
         """
-        found = self._messages.get(type)
-        if found is not None:
+        if isinstance(type, str) and (found := self._messages.get(type)) is not None:
             return found
-        with self._lock:
-            return self._load(type, ())
+        with self._explaining(type, "msg"):
+            return self._find_msg(type)
 
     def load_srv(self, type: str) -> ServiceClass:
         """The class of a service type; errors as for :meth:`load_msg`."""
-        found = self._services.get(type)
-        if found is not None:
+        if isinstance(type, str) and (found := self._services.get(type)) is not None:
             return found
-        with self._lock:
-            found = self._services.get(type)
-            if found is None:
-                found = self._services[type] = self._load_srv(type)
-            return found
+        with self._explaining(type, "srv"):
+            return self._find_srv(type)
 
     def load_action(self, type: str) -> ActionClass:
         """The class of an action type; errors as for :meth:`load_msg`.
 
         You can also load each of its seven messages by name.
         """
-        found = self._actions.get(type)
-        if found is not None:
+        if isinstance(type, str) and (found := self._actions.get(type)) is not None:
             return found
-        with self._lock:
-            found = self._actions.get(type)
-            if found is None:
-                found = self._actions[type] = self._load_action(type)
-            return found
+        with self._explaining(type, "action"):
+            return self._find_action(type)
 
     # -- adding -----------------------------------------------------------------------
 
@@ -237,6 +228,17 @@ class MessageStore:
         names |= {f"{package}/{name}" for name in self._search.types(package, kind)}
         return sorted(names.union(self.parent.types(package, kind) if self.parent else ()))
 
+    def suggest(self, type: str, kind: Kind = "msg") -> list[str]:
+        """The few types that somebody may have meant by a wrong name, the likest first."""
+        return near_types(
+            type,
+            kind,
+            self._package_names(),
+            self._package_names(given=True),
+            lambda package: self.types(package, kind),
+            lambda package, name: self._has(package, name, kind),
+        )
+
     def places(self) -> list[str]:
         """The directories that are searched, in order."""
         inherited = self.parent.places() if self.parent else []
@@ -266,7 +268,7 @@ class MessageStore:
             is_other = is_service or issubclass(type_or_class, AnyAction)
             if isinstance(md5sum, str) and isinstance(text, str) and not is_other:
                 return self._foreign(type_, md5sum, text)
-        raise _not_a_type("a message", type_or_class)
+        raise not_a_type("msg", type_or_class)
 
     def resolve_srv(self, type_or_class: Any) -> ServiceClass:
         """The service class that a user means by a name or a class.
@@ -285,7 +287,7 @@ class MessageStore:
                 type_ = _genpy(type_or_class, "_type")
                 md5sum = _genpy(type_or_class, "_md5sum")
                 try:
-                    known = self.load_srv(type_)
+                    known = self._find_srv(type_)
                 except (MessageNotFoundError, MessageSpecError):
                     known = None
                 if known is not None and known._md5sum == md5sum:
@@ -295,7 +297,7 @@ class MessageStore:
                     (type_, *parts), lambda: join_service(type_, *parts)
                 )
                 return made
-        raise _not_a_type("a service", type_or_class)
+        raise not_a_type("srv", type_or_class)
 
     def resolve_action(self, type_or_class: Any) -> ActionClass:
         """The action class that a user means by a name or a class.
@@ -313,7 +315,7 @@ class MessageStore:
                 return type_or_class
             if tuple(type_or_class.__dict__.get("__slots__", ())) == _ACTION_FIELDS:
                 return self._action_of(self.resolve_msg(type_or_class))
-        raise _not_a_type("an action", type_or_class)
+        raise not_a_type("action", type_or_class)
 
     def __repr__(self) -> str:
         loaded = len(self._messages) + len(self._services) + len(self._actions)
@@ -326,7 +328,7 @@ class MessageStore:
         """The action whose message ``TypeAction`` this is."""
         type = message._type.removesuffix("Action")
         try:
-            known = self.load_action(type)
+            known = self._find_action(type)
         except (MessageNotFoundError, MessageSpecError):
             known = None
         if known is not None and known._md5sum == message._md5sum:
@@ -345,7 +347,7 @@ class MessageStore:
 
     def _foreign(self, type: str, md5sum: str, full_text: str) -> MessageClass:
         try:
-            known = self.load_msg(type)
+            known = self._find_msg(type)
             if known._md5sum == md5sum:
                 return known
         except (MessageNotFoundError, MessageSpecError):
@@ -358,6 +360,24 @@ class MessageStore:
         return made
 
     # -- inside -----------------------------------------------------------------------
+
+    def _find_msg(self, type: str) -> MessageClass:
+        with self._lock:
+            return self._load(type, ())
+
+    def _find_srv(self, type: str) -> ServiceClass:
+        with self._lock:
+            found = self._services.get(type)
+            if found is None:
+                found = self._services[type] = self._load_srv(type)
+            return found
+
+    def _find_action(self, type: str) -> ActionClass:
+        with self._lock:
+            found = self._actions.get(type)
+            if found is None:
+                found = self._actions[type] = self._load_action(type)
+            return found
 
     def _source(self, kind: Kind, type: str) -> _Source | None:
         """This store's own definition of a type."""
@@ -423,7 +443,7 @@ class MessageStore:
             if self.parent is None:
                 raise self._not_found(type, ("srv",))
             with self._searched_too():
-                inherited = self.parent.load_srv(type)
+                inherited = self.parent._find_srv(type)
             parts = (inherited.Request, inherited.Response)
             inside = specs_of(cls for part in parts for cls in part._nested.values())
             if not self._overrides(inside):
@@ -439,7 +459,7 @@ class MessageStore:
             if self.parent is None:
                 raise self._not_found(type, ("action",))
             with self._searched_too():
-                inherited = self.parent.load_action(type)
+                inherited = self.parent._find_action(type)
             spec = inherited._spec
         else:
             inherited = None
@@ -466,6 +486,42 @@ class MessageStore:
         )
 
     @contextmanager
+    def _explaining(self, type: Any, kind: Kind) -> Iterator[None]:
+        """If a name that a user gave is wrong, the error says what may have been meant."""
+        if not isinstance(type, str):
+            split_type(type)  # raises
+        try:
+            yield
+        except InvalidNameError as error:
+            if names := " or ".join(self.suggest(type, kind)):
+                raise InvalidNameError(f"{error}; did you mean {names}?") from None
+            raise
+        except MessageNotFoundError as error:
+            package, name = split_type(type)
+            if self._has(package, name, kind):
+                raise  # the name is right, but one inside is not
+            for other in KINDS:
+                if self._has(package, name, other):
+                    raise MessageNotFoundError(of_another_kind(kind, other, type)) from None
+            error.suggestions = tuple(self.suggest(type, kind))
+            raise
+
+    def _package_names(self, *, given: bool = False) -> set[str]:
+        """The names that packages may have; ``given``: only of what users gave to stores."""
+        with self._lock:
+            names = {split_type(type)[0] for _, type in self._texts}
+        names |= self._search.candidates(given=given)
+        return names.union(self.parent._package_names(given=given) if self.parent else ())
+
+    def _has(self, package: str, name: str, kind: Kind) -> bool:
+        """Whether there is a definition of ``package/name``, here or in a parent."""
+        if (kind, f"{package}/{name}") in self._texts:
+            return True
+        if self._search.find(package, name, kind) is not None:
+            return True
+        return self.parent is not None and self.parent._has(package, name, kind)
+
+    @contextmanager
     def _searched_too(self) -> Iterator[None]:
         """If the parent does not find a type, the error names the places of this store too."""
         try:
@@ -490,22 +546,6 @@ def _counted(number: int, what: str) -> str:
 def _genpy(cls: object, name: str) -> Any:
     """A class attribute by genpy's name, or None."""
     return getattr(cls, name, None)
-
-
-def _not_a_type(kind: str, value: Any) -> TypeError:
-    """The error for what is not the type of a message, service or action."""
-    name = _genpy(value, "_type")
-    if not isinstance(name, str):
-        got = describe(value)
-    elif not isinstance(value, type):
-        got = f"a message of {name}: hand over its class"
-    elif issubclass(value, AnyAction):
-        got = f"the action class {name}"
-    elif _genpy(value, "_request_class") is not None:
-        got = f"the service class {name}"
-    else:
-        got = f"the message class {name}"
-    return TypeError(f"expected {kind} class or 'package/Type', got {got}")
 
 
 # -- the store that is used when none is named ----------------------------------------

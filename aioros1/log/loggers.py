@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable
+import weakref
+from collections.abc import Callable, Iterable
 
-__all__ = ["SilentHandler", "topmost"]
+__all__ = ["SilentHandler", "WeakHandler", "topmost"]
 
 
 def topmost(names: Iterable[str]) -> list[logging.Logger]:
@@ -29,6 +30,36 @@ class SilentHandler(logging.Handler):
             # Once, not for each node that gets the record.
             if handlers[:1] == [self] and all(isinstance(each, SilentHandler) for each in handlers):
                 last_resort.handle(record)
+
+
+class WeakHandler(SilentHandler):
+    """Passes records on to a method of an object that it does not keep alive.
+
+    Loggers live as long as the process, and with them all that their handlers refer to: an
+    object that was forgotten could not be collected.
+    """
+
+    def __init__(self, loggers: Iterable[logging.Logger], take: Callable[..., object]) -> None:
+        super().__init__()
+        self._loggers = list(loggers)
+        self._take = weakref.WeakMethod(take, lambda _: self.detach())
+        for logger in self._loggers:
+            logger.addHandler(self)
+
+    def detach(self) -> None:
+        """Take no more records."""
+        for logger in self._loggers:
+            logger.removeHandler(self)
+        self.close()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        try:
+            self.print_if_nobody_does(record)
+            take = self._take()
+            if take is not None:
+                take(record)
+        except Exception:  # a record that cannot be formatted, handled as in every handler
+            self.handleError(record)
 
 
 def _handlers(logger: logging.Logger) -> list[logging.Handler]:

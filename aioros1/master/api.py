@@ -55,6 +55,8 @@ class MasterApi:
         self._room = 0  # registrations that fit for certain
         self.uri = ""
         """The answer of getUri."""
+        self.pid = os.getpid()
+        """The answer of getPid."""
 
     def methods(self) -> dict[str, Callable[..., Any]]:
         """Every method by its name, for :class:`.XmlRpcServer`."""
@@ -109,7 +111,7 @@ class MasterApi:
             "getTopicTypes": _checked(plain(registry.topic_types), []),
             "getSystemState": _checked(lambda caller_id: self._system_state(), [[], [], []]),
             "getUri": _checked(lambda caller_id: (1, "", self.uri), ""),
-            "getPid": _checked(lambda caller_id: (1, "", os.getpid()), -1),
+            "getPid": _checked(lambda caller_id: (1, "", self.pid), -1),
             "shutdown": _checked(self._shutdown, 0, ("msg", _anything)),
             "setParam": _checked(self._set_param, 0, key, ("value", _value)),
             "getParam": _checked(self._get_param, 0, key),

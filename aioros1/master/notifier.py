@@ -4,21 +4,27 @@ A node that hangs or is gone must never delay notifications to others: with thre
 rosmaster, which has three threads for this, goes silent for the whole graph. Here every node
 has a queue and, while the queue is not empty, a task. A queue keeps only the newest message
 about each thing, so it stays short and an old list of publishers never overtakes a newer one.
+
+A message that does not arrive is sent again: nothing else would tell the node. The master may
+have no descriptors left, or the node may be restarting its network, be busy or hang.
 """
 
 from __future__ import annotations
 
 import asyncio
 import logging
+import random
 from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from aioros1.log.library_log import LibraryLog
 from aioros1.master.parameters import ParamUpdate
-from aioros1.master.registry import Notification, PublisherUpdate
+from aioros1.master.registry import Notification, PublisherUpdate, Shutdown
+from aioros1.quoting import printable
 from aioros1.waiting import Mutex
 from aioros1.wire.xmlrpc import XmlRpcError, XmlRpcFault
-from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.client import HttpStatusError, XmlRpcClient
 
 __all__ = ["Notifier"]
 
@@ -29,6 +35,15 @@ _CALLER_ID = "/master"
 _MAX_PENDING = 10_000
 
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, 30.0
+
+_GIVE_UP = 600.0
+"""Seconds in which a node may be out of reach. Dead nodes stay registered for ever."""
+
+_GIVE_UP_SHUTDOWN = 10.0
+"""The same for the request to end, as another program may get the address of a dead node."""
+
+_TRY_AGAIN = (408, 429, 500, 502, 503, 504)
+"""HTTP statuses of servers that may have time later."""
 
 # Nodes to start notifying in one iteration of the event loop. A topic may have hundreds of
 # subscribers; notifying all at once would hold up the requests that come meanwhile.
@@ -44,7 +59,7 @@ _Slot = tuple[type, str, str]
 class Notifier:
     """Sends notifications to nodes through ``client``.
 
-    ``is_registered(api)`` tells whether to try again at a URI that did not answer in time.
+    ``is_wanted(message)`` tells whether to try again what did not arrive.
     ``on_unwanted(update)`` is called when a node answers that it does not follow a
     parameter. Both are plain functions.
     """
@@ -53,14 +68,16 @@ class Notifier:
         self,
         client: XmlRpcClient,
         *,
-        is_registered: Callable[[str], bool],
+        is_wanted: Callable[[Notification], bool],
         on_unwanted: Callable[[ParamUpdate], object],
     ) -> None:
         self._client = client
-        self._is_registered = is_registered
+        self._log = LibraryLog(_LOG)
+        self._is_wanted = is_wanted
         self._on_unwanted = on_unwanted
         self._queues: dict[str, dict[_Slot, Notification]] = {}
         self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._pauses: dict[str, asyncio.Event] = {}  # of nodes that are told again later
         self._waiting: deque[str] = deque()  # nodes with a queue but no task yet
         self._starter: asyncio.Task[None] | None = None
         self._closed = False
@@ -82,15 +99,18 @@ class Notifier:
             # below that was queued in between would have the last word.
             queue.pop(slot, None)
             queue[slot] = message
+            if api in self._pauses:
+                self._pauses[api].set()  # something may have changed there
             if len(queue) > _MAX_PENDING:
                 del queue[next(iter(queue))]
-                _LOG.warning("%s takes no notifications; the oldest is dropped", api)
+                self._log.complain("%s takes no notifications; the oldest is dropped", api)
         if self._waiting and self._starter is None:
             self._starter = asyncio.create_task(self._start(), name="aioros1-master-notify")
 
     async def close(self) -> None:
         """Drop all messages that are queued or being sent."""
         self._closed = True
+        self._log.close()
         tasks = list(self._tasks.values())
         if self._starter is not None:
             tasks.append(self._starter)
@@ -107,43 +127,71 @@ class Notifier:
                     api = self._waiting.popleft()
                     work = self._work(api, self._queues[api])
                     self._tasks[api] = asyncio.create_task(
-                        work, name=f"aioros1-master-notify {api}"
+                        work, name=f"aioros1-master-notify {printable(api)}"
                     )
                 await asyncio.sleep(0)
         finally:
             self._starter = None
 
     async def _work(self, api: str, queue: dict[_Slot, Notification]) -> None:
-        pause = _FIRST_PAUSE
+        loop = asyncio.get_running_loop()
+        pause, failing_since, complaint = _FIRST_PAUSE, None, ""
         try:
             while queue:
                 slot = next(iter(queue))
                 message = queue.pop(slot)
                 try:
                     await self._tell(message)
-                    pause = _FIRST_PAUSE
-                except TimeoutError as error:
-                    _LOG.warning("%s", error)
-                    if not self._is_registered(api):
+                except (TimeoutError, ConnectionError, HttpStatusError) as error:
+                    if complaint != str(error):
+                        complaint = str(error)
+                        self._log.log(_level(error), "%s", error)
+                    if failing_since is None:
+                        failing_since = loop.time()
+                    if isinstance(error, HttpStatusError) and error.status not in _TRY_AGAIN:
                         continue
-                    # The node may still read this, even after what we send next. So send
-                    # this, or what has replaced it, again until the node answers.
+                    # The node may have read this, or may still read it, even after what we
+                    # send next. So send this again, or what has replaced it, until the node
+                    # answers.
                     if slot not in queue:
                         rest = dict(queue)
                         queue.clear()
                         queue[slot] = message
                         queue.update(rest)
-                    await asyncio.sleep(pause)
-                    pause = min(pause * 2, _LONGEST_PAUSE)
-                except (ConnectionError, XmlRpcError, XmlRpcFault) as error:
-                    _LOG.info("%s", error)
+                    self._drop(queue, loop.time() - failing_since)
+                    if queue:
+                        await self._rest(api, pause)
+                        pause = min(pause * 2, _LONGEST_PAUSE)
+                        self._drop(queue, loop.time() - failing_since)
+                except (XmlRpcError, XmlRpcFault) as error:
+                    self._log.info("%s", error)
                 except Exception:
-                    _LOG.exception("cannot tell %s: %s", api, message)
+                    self._log.exception("cannot tell %s: %s", api, message)
+                else:
+                    pause, failing_since, complaint = _FIRST_PAUSE, None, ""
         finally:
             del self._tasks[api]
             del self._queues[api]
             if not self._tasks:
                 self._last = None
+
+    async def _rest(self, api: str, seconds: float) -> None:
+        """Wait before the next try, or until there is something new to tell."""
+        woken = self._pauses[api] = asyncio.Event()
+        try:
+            async with asyncio.timeout(seconds * random.uniform(0.5, 1.0)):
+                await woken.wait()
+        except TimeoutError:
+            pass
+        finally:
+            del self._pauses[api]
+
+    def _drop(self, queue: dict[_Slot, Notification], seconds: float) -> None:
+        """Drop what need not be told any more, or could not be for so many seconds."""
+        for slot, message in list(queue.items()):
+            limit = _GIVE_UP_SHUTDOWN if isinstance(message, Shutdown) else _GIVE_UP
+            if seconds >= limit or not self._is_wanted(message):
+                del queue[slot]
 
     async def _tell(self, message: Notification) -> None:
         answer: Any
@@ -160,9 +208,11 @@ class Notifier:
                 answer = await call(message.api, "paramUpdate", *params)
             if isinstance(answer, list) and answer[:1] == [-1]:
                 self._on_unwanted(message)
+        elif not self._is_wanted(message):
+            return  # another node has come to that address meanwhile
         else:
             answer = await call(message.api, "shutdown", _CALLER_ID, message.reason)
-        _LOG.debug("%s answered %.200s", message.api, answer)
+        self._log.debug("%s answered %s", message.api, printable(answer, 200))
 
     async def _encode(self, message: ParamUpdate) -> bytes:
         """The request that tells of ``message``; the same bytes for all nodes that it is for.
@@ -183,6 +233,11 @@ def _is_large(value: Any) -> bool:
     if isinstance(value, dict | list):
         return bool(value)  # it would take long to find out
     return isinstance(value, str | bytes) and len(value) > _LARGE
+
+
+def _level(error: Exception) -> int:
+    """A node that hangs is worth a warning; one that is gone may just have been killed."""
+    return logging.WARNING if isinstance(error, TimeoutError) else logging.INFO
 
 
 def _slot(message: Notification) -> _Slot:

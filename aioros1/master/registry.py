@@ -221,13 +221,25 @@ class Registry:
         """Whether any registered node is at the URI ``api``."""
         return api in self._apis
 
+    def is_wanted(self, message: Notification) -> bool:
+        """Whether the node at ``message.api`` still needs to be told."""
+        if isinstance(message, PublisherUpdate):
+            return message.api in self._subscribers.get(message.topic, {}).values()
+        if isinstance(message, Shutdown):
+            return not self.knows_api(message.api)
+        node = self._nodes.get(message.caller_id)
+        if node is None or node.api != message.api:
+            return False
+        key = message.key
+        return any(key.startswith(each) or each.startswith(key) for each in node.params)
+
     # ------------------------------------------------------------------ inside
 
     def _node(self, caller_id: str, api: str) -> tuple[_Node, list[Notification]]:
         """The entry of a node that registers something from ``api``.
 
-        A node of the same name at another URI counts as an old one: it is told to end and
-        loses all its registrations.
+        A node of the same name at another URI counts as an old one: it is told to end, if no
+        other node is at its URI, and loses all its registrations.
         """
         node = self._nodes.get(caller_id)
         notifications: list[Notification] = []
@@ -235,8 +247,10 @@ class Registry:
             if node.api == api:
                 return node, notifications
             reason = f"[{caller_id}] Reason: new node registered with same name"
-            notifications.append(Shutdown(node.api, caller_id, reason))
             notifications += self._forget(caller_id, node)
+            # Unless the old one has gone without a word, and another node has its port now.
+            if not self.knows_api(node.api):
+                notifications.insert(0, Shutdown(node.api, caller_id, reason))
         self._nodes[caller_id] = node = _Node(api)
         self._apis[api] = self._apis.get(api, 0) + 1
         return node, notifications

@@ -14,9 +14,11 @@ from types import TracebackType
 from typing import Any, Self
 
 from aioros1._public import public
+from aioros1.hints import explained
 from aioros1.master.api import MasterApi
 from aioros1.master.notifier import Notifier
 from aioros1.master.parameters import ParameterTree, ParamUpdate
+from aioros1.master.process_id import process_id
 from aioros1.master.registry import Answer, Registry
 from aioros1.names import resolve_from
 from aioros1.net.allow import AllowList, parse_address
@@ -31,6 +33,7 @@ from aioros1.net.hosts import (
 )
 from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.options import Limits, Timeouts
+from aioros1.quoting import printable
 from aioros1.wire.xmlrpc import decode_response, encode_response
 from aioros1.xmlrpc.client import SHORT_ANSWER, XmlRpcClient
 from aioros1.xmlrpc.server import Reply, XmlRpcServer
@@ -99,6 +102,7 @@ class Master:
     Raises :class:`ValueError` for invalid networks in ``allow``.
     """
 
+    @explained
     def __init__(
         self,
         host: str | None = None,
@@ -137,7 +141,7 @@ class Master:
         self._client = XmlRpcClient(timeouts=timeouts, limits=answers)
         self._notifier = Notifier(
             self._client,
-            is_registered=self._registry.knows_api,
+            is_wanted=self._registry.is_wanted,
             on_unwanted=self._unwanted,
         )
         self._api = MasterApi(
@@ -192,8 +196,8 @@ class Master:
             connections_cut=budget.cut,
         )
 
-    async def start(self) -> None:
-        """Start to serve.
+    async def start(self) -> Self:
+        """Start to serve; returns the master.
 
         Raises :class:`OSError` when the address or the port is not available, and
         :class:`ValueError` when ``bind`` is not an address, or when ``allow`` excludes this
@@ -208,6 +212,7 @@ class Master:
         except BaseException:
             await self.close()
             raise
+        return self
 
     async def _start(self) -> None:
         host, bind = self._host, self._bind
@@ -225,6 +230,7 @@ class Master:
         self._stack.push_async_callback(self._notifier.close)
         self._stack.push_async_callback(self._server.close)
         await self._server.start(bind, self._port)
+        self._api.pid = process_id(self.port, is_free=not self._port)
         self._uri = self._api.uri = f"http://{uri_host(advertised)}:{self._server.port}/"
         if self._rosout:
             # Imported here because it is a node, which a master alone does not need.
@@ -273,8 +279,7 @@ class Master:
         return self._reason
 
     async def __aenter__(self) -> Self:
-        await self.start()
-        return self
+        return await self.start()
 
     async def __aexit__(
         self,
@@ -301,7 +306,7 @@ class Master:
         # A task of its own: a request to shut down must not wait for its own end, and the
         # caller of close() may be cancelled meanwhile.
         if self._closing is None:
-            self._reason = reason
+            self._reason = printable(reason)
             self._closing = asyncio.create_task(self._close(), name="aioros1-master-close")
         return self._closing
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import socket
 from collections.abc import Callable
 from typing import TypeVar
 
 from aioros1.net.hosts import all_loopback, resolve
 
-__all__ = ["connect"]
+__all__ = ["connect", "reason_of"]
 
 P = TypeVar("P", bound=asyncio.BaseProtocol)
 
@@ -92,4 +93,15 @@ def _failure(host: str, failures: list[OSError]) -> OSError:
         return OSError(f"{host} has no address")
     if len({error.errno for error in failures}) == 1:
         return failures[0]  # the same for each address
-    return OSError(", ".join(map(str, failures)))
+    return OSError(", ".join(dict.fromkeys(map(reason_of, failures))))
+
+
+def reason_of(error: OSError) -> str:
+    """Why a connection failed, in the words of the system, without numbers and addresses.
+
+    The same failure then has the same text, with either event loop and on each address.
+    """
+    number = error.errno
+    if number is not None and number > 0:  # those of gaierror are negative, and its own
+        return os.strerror(number)
+    return error.strerror or str(error)

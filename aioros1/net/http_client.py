@@ -14,10 +14,11 @@ from functools import lru_cache
 from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
-from aioros1.net.connecting import connect
+from aioros1.net.connecting import connect, reason_of
 from aioros1.net.ending import shut_down
 from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
+from aioros1.wire.carriage_returns import with_references
 from aioros1.wire.http import AnswerReader, HttpError
 
 __all__ = ["MAX_URI", "HttpClient", "Server", "server_at"]
@@ -95,9 +96,10 @@ class HttpClient:
         self._sweeper: asyncio.TimerHandle | None = None
 
     async def post(
-        self, server: Server, body: bytes, *, max_bytes: int | None = None
+        self, server: Server, body: bytes, *, counts: bool = True, max_bytes: int | None = None
     ) -> AnswerReader:
-        """Send ``body`` and return the answer, of at most ``max_bytes``. Raises
+        """Send ``body`` and return the answer, of at most ``max_bytes``. Unless it ``counts``,
+        the request gets a connection even if PER_SERVER requests are in progress. Raises
 
         - :class:`ConnectionError` if the server cannot be reached,
         - :class:`ConnectionResetError` if the connection is lost before the answer,
@@ -110,10 +112,18 @@ class HttpClient:
                 self._sweeper = asyncio.get_running_loop().call_later(IDLE, self._sweep)
         pool.users += 1
         try:
-            async with pool.slots:
-                return await self._post(pool, server, body, max_bytes or self._max_bytes)
+            async with pool.slots if counts else contextlib.nullcontext():
+                answer = await self._post(pool, server, body, max_bytes or self._max_bytes)
+            pool.is_python = b"Python/" in answer.server
+            return answer
         finally:
             pool.users -= 1
+
+    def losses(self, server: Server) -> int:
+        """How many kept connections to ``server`` were lost since it was first asked, or asked
+        after a long time."""
+        pool = self._pools.get(server[:2])
+        return 0 if pool is None else pool.losses
 
     def close_idle(self) -> None:
         """Close the connections that no request is using."""
@@ -133,6 +143,8 @@ class HttpClient:
 
     async def _post(self, pool: _Pool, server: Server, body: bytes, max_bytes: int) -> AnswerReader:
         lost: ConnectionResetError | None = None
+        if pool.is_python:
+            body = with_references(body)
         answer = AnswerReader(max_bytes=max_bytes)
         connection = pool.take()
         if connection is not None:
@@ -149,6 +161,7 @@ class HttpClient:
                 # other kept ones may be just as stale.
                 if answer.has_begun:
                     raise
+                pool.losses += 1
                 lost = error
             else:
                 pool.put(connection)
@@ -170,7 +183,7 @@ class HttpClient:
                 lambda: _Connection(self._ended, pool), server.host, server.port
             )
         except OSError as error:
-            raise ConnectionError(f"cannot connect: {error}") from error
+            raise ConnectionError(f"cannot connect: {reason_of(error)}") from None
         # Not in connection_made(): uvloop never calls connection_lost() for a connection
         # that was cancelled at that moment, and close() would wait for it.
         if not connection.is_closing:
@@ -196,12 +209,15 @@ class HttpClient:
 class _Pool:
     """The connections to one server."""
 
-    __slots__ = ("idle", "slots", "users")
+    __slots__ = ("idle", "is_python", "losses", "slots", "users")
 
     def __init__(self) -> None:
+        self.is_python = False
+        """Whether the server is Python's, by its last answer."""
         self.idle: list[_Connection] = []
         self.slots = asyncio.Semaphore(PER_SERVER)
         self.users = 0  # requests in progress or waiting for a slot
+        self.losses = 0  # connections that the server, or the network, has closed
 
     def take(self) -> _Connection | None:
         """Take the idle connection that was used last."""
@@ -232,6 +248,7 @@ class _Connection(asyncio.Protocol):
         "_answer",
         "_ended",
         "_failure",
+        "_is_aborted",
         "_is_paused",
         "_keeps_alive",
         "_pool",
@@ -248,6 +265,7 @@ class _Connection(asyncio.Protocol):
         self._answer: AnswerReader | None = None  # while it is not complete
         self._failure: Exception | None = None
         self._waiter: asyncio.Future[None] | None = None
+        self._is_aborted = False  # by this side
         self._is_paused = False
         self._keeps_alive = False
         self.idle_since = 0.0
@@ -290,6 +308,7 @@ class _Connection(asyncio.Protocol):
 
     def abort(self) -> None:
         """Close at once."""
+        self._is_aborted = True
         self._transport.abort()
 
     async def _send(self, head: bytes, body: bytes) -> bool:
@@ -335,8 +354,13 @@ class _Connection(asyncio.Protocol):
         self._ended(self)
         if self in self._pool.idle:
             self._pool.idle.remove(self)
+            if not self._is_aborted:
+                self._pool.losses += 1
         self._is_paused = False
-        self._end(ConnectionResetError(f"connection lost: {exc or 'the server closed it'}"))
+        why = "the server closed it" if exc is None else str(exc)
+        if isinstance(exc, OSError):
+            why = reason_of(exc)
+        self._end(ConnectionResetError(f"connection lost: {why}"))
 
     def data_received(self, data: bytes) -> None:
         if self._answer is None:

@@ -20,6 +20,7 @@ from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.budget import Share
 from aioros1.net.connecting import connect as connect_tcp
+from aioros1.net.connecting import reason_of
 from aioros1.net.ending import shut_down
 from aioros1.net.hosts import bind_sockets, set_keepalive
 from aioros1.options import Limits, Timeouts
@@ -187,7 +188,7 @@ async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
             raise TimeoutError(
                 f"no connection to {host}:{port} within {timeouts.connect} s"
             ) from None
-        raise ConnectionError(f"cannot connect to {host}:{port}: {error}") from error
+        raise ConnectionError(f"cannot connect to {host}:{port}: {reason_of(error)}") from None
     reader = readers[protocol]
     try:
         return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop), timeouts)

@@ -6,6 +6,7 @@ from collections.abc import Awaitable, Callable
 
 from aioros1.core.context import Context
 from aioros1.errors import HandshakeError
+from aioros1.log.library_log import ROSOUT
 from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.local_transports import LocalTransports
@@ -64,7 +65,7 @@ class Acceptor:
         await self._listener.wait_closed()
 
     async def _serve(self, stream: Stream) -> None:
-        context = self._context
+        context, log = self._context, self._context.log
         server = Server(
             stream.peer,
             max_bytes=context.limits.header_bytes,
@@ -78,12 +79,14 @@ class Acceptor:
             assert serve is not None
             await serve(stream, server)
         except HandshakeError as error:
-            # A peer that connects while the node closes does not know that yet.
-            log = context.log.warning if context.is_open else context.log.debug
-            log("refused a connection of %s", error)
+            # A peer that comes while the node closes does not know that yet.
+            if context.is_open and server.header.get("topic") != ROSOUT:
+                host = stream.peer.rpartition(":")[0]
+                about = (server.caller_id, host, error.text)
+                log.complain("refused a connection of %s: %s", server.peer, error.text, about=about)
             await self._refuse(stream, server.refuse(error.text))
         except TimeoutError as error:
-            context.log.warning("refused a connection: %s", error)
+            log.complain("refused a connection: %s", error, about=stream.peer.rpartition(":")[0])
             await self._refuse(stream, server.refuse(str(error)))
         except OSError:
             pass  # it closed before it was served

@@ -140,7 +140,8 @@ class Composite:
         if self.__state not in ("opening", "open"):
             coro.close()
             raise self.__closed_error()
-        task = self.__node.create_task(coro, name=name)
+        # It ends when this closes, not before: what cleans up may still use it.
+        task = self.__node._create_task(coro, name, "closed")
         self.__tasks.add(task)
         task.add_done_callback(self.__tasks.discard)
         return task

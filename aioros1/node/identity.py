@@ -6,12 +6,12 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from ipaddress import ip_address
-from typing import Any, Self, TypeVar
+from typing import Self, TypeVar
 from urllib.parse import urlsplit
 
 from aioros1 import names
 from aioros1.errors import InvalidNameError
-from aioros1.node.private_params import parse_value
+from aioros1.node.private_params import PrivateParams
 
 __all__ = ["DEFAULT_MASTER_URI", "Identity", "master_uri_of"]
 
@@ -32,7 +32,7 @@ class Identity:
     host_words: str
     """Where the host comes from, as it was written: ``ROS_IP=10.0.0.2``."""
     remappings: Mapping[str, str]
-    private_params: Mapping[str, Any]
+    private_params: PrivateParams
     log_file: str | None
     """The file that ``__log:=`` names."""
 
@@ -71,6 +71,8 @@ class Identity:
         namespace = (
             (names.normalize_namespace(namespace) if namespace else None)
             or special.read("__ns", names.normalize_namespace)
+            # As in rospy and roscpp, nothing is the root, whatever the environment says.
+            or ("/" if "__ns" in special.values else None)
             or _ENVIRONMENT.read("ROS_NAMESPACE", names.normalize_namespace)
             or "/"
         )
@@ -90,7 +92,7 @@ class Identity:
                 namespace,
                 names.qualify(namespace, base_name),
             ),
-            private_params=_private_params(arguments.params),
+            private_params=PrivateParams.of(arguments.params),
             log_file=arguments.special.get("__log") or None,
         )
 
@@ -132,16 +134,6 @@ class _Settings:
 
 
 _ENVIRONMENT = _Settings(os.environ, "=")
-
-
-def _private_params(words: Mapping[str, str]) -> dict[str, Any]:
-    params = {}
-    for key, text in words.items():
-        try:
-            params[key] = parse_value(text)
-        except ValueError as error:
-            raise ValueError(f"_{key}:={text}: {error}") from error
-    return params
 
 
 def _check_uri(uri: str) -> str:

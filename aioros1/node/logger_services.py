@@ -42,10 +42,10 @@ class LoggerServices:
                 await self._context.pause(_RETRY)
 
     def _is_ours(self, name: str) -> bool:
-        return any(name == top or name.startswith(f"{top}.") for top in self._context.log.names)
+        return any(name == top or name.startswith(f"{top}.") for top in self._context.loggers)
 
     def _get_loggers(self, request: Any) -> dict[str, Any]:
-        tops = [logging.getLogger(name) for name in self._context.log.names]
+        tops = [logging.getLogger(name) for name in self._context.loggers]
         # logging keeps placeholders for names that only occur as parents of others.
         others = [
             logger
@@ -65,7 +65,7 @@ class LoggerServices:
             raise RosError(f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}")
         # Create a logger that does not exist yet, as rospy and roscpp do: it may be used later.
         if not self._is_ours(request.logger):
-            names = ", ".join(self._context.log.names)
+            names = ", ".join(self._context.loggers)
             raise RosError(
                 f"unknown logger {request.logger!r}, expected one of {names}, or one below"
             )

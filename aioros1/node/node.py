@@ -5,25 +5,28 @@ from __future__ import annotations
 import asyncio
 import math
 import os
-from collections.abc import Awaitable, Callable, Collection, Coroutine, Mapping, Sequence
+from collections.abc import Callable, Collection, Coroutine, Mapping, Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from aioros1._public import public
 from aioros1.clock.clock import Clock
-from aioros1.clock.rate import Rate, period_of
-from aioros1.clock.timer import Timer
+from aioros1.connection import ConnectionInfo
 from aioros1.core.address import Address
+from aioros1.core.awaited import awaits_caller
 from aioros1.core.context import Context
+from aioros1.core.hints import similar_node
 from aioros1.core.registration import Terms
-from aioros1.core.registrations import AT_ONCE, Registrations
+from aioros1.core.registrations import Registrations
 from aioros1.core.role import Role
 from aioros1.core.stats import NodeStats
 from aioros1.core.supervisor import Supervisor
 from aioros1.core.user_errors import UserErrors
-from aioros1.errors import ClosedError
+from aioros1.core.user_tasks import Stage, UserTasks
+from aioros1.errors import ClosedError, NodeNotFound
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
+from aioros1.hints import NODE_HABITS, check_coroutine, explained, explained_attributes
 from aioros1.idl import MessageStore, default_store
 from aioros1.log.levels import LevelChanges
 from aioros1.log.node_log import NodeLog
@@ -41,7 +44,9 @@ from aioros1.node.rosout import Rosout
 from aioros1.node.service_methods import ServiceMethods
 from aioros1.node.sim_time import SimTime
 from aioros1.node.slave_api import SlaveApi
+from aioros1.node.time_methods import TimeMethods
 from aioros1.node.topic_methods import TopicMethods
+from aioros1.node.winding_down import WindingDown
 from aioros1.options import (
     LOCAL_TRANSPORTS,
     Limits,
@@ -49,10 +54,11 @@ from aioros1.options import (
     NodeOptions,
     OnError,
     Timeouts,
+    WithoutMaster,
 )
 from aioros1.params.params import Params
 from aioros1.services.services import Services
-from aioros1.time import Duration, Time
+from aioros1.time import Time
 from aioros1.topics.topics import Topics
 from aioros1.waiting import deadline
 from aioros1.xmlrpc.client import XmlRpcClient
@@ -60,14 +66,13 @@ from aioros1.xmlrpc.master_proxy import MasterProxy
 from aioros1.xmlrpc.node_proxy import NodeProxy
 from aioros1.xmlrpc.server import XmlRpcServer
 
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-
 __all__ = ["Node"]
+
+C = TypeVar("C", bound=Callable[[], object])
 
 
 @public
-class Node(TopicMethods, ServiceMethods, ParamMethods):
+class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
     """A node of a ROS graph. It runs in the event loop that starts it.
 
     ::
@@ -92,9 +97,13 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     current levels. ``logger_services`` provides ``~get_loggers`` and ``~set_logger_level``.
     With ``use_sim_time`` None, the node follows the parameter ``/use_sim_time``, which it reads
     at the start and with each heartbeat. ``heartbeat`` is how often, in seconds, the node
-    checks the master; None means never. ``on_error`` says what happens to an exception in
-    your callbacks: ``"raise"`` closes the node and raises it where you use the node, ``"log"``
-    logs it, and a function is called with it. ``local_transports`` may name
+    checks the master; None means never. ``without_master`` says what opening a role does while
+    no master answers: ``"raise"`` raises :class:`~aioros1.MasterUnreachable`, ``"wait"`` waits
+    for one, and says so once in the log, and ``"later"`` returns an open role, which is
+    registered when a master comes. With ``"wait"``, parameter methods, calls and look-ups wait
+    too; with ``"later"`` they raise, since they need an answer. ``on_error`` says what happens
+    to an exception in your callbacks: ``"raise"`` closes the node and raises it where you use
+    the node, ``"log"`` logs it, and a function is called with it. ``local_transports`` may name
     ``"intraprocess"`` and ``"unix"``: topics then bypass TCP between nodes of this library in
     one event loop, or on one Linux host, if both sides name the transport.
 
@@ -106,6 +115,10 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     :class:`ValueError` and :class:`TypeError`, which name the option.
     """
 
+    if not TYPE_CHECKING:
+        __getattr__ = explained_attributes(NODE_HABITS)
+
+    @explained
     def __init__(
         self,
         name: str,
@@ -125,6 +138,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         logger_services: bool = True,
         use_sim_time: bool | None = None,
         heartbeat: float | None = 1.0,
+        without_master: WithoutMaster = "raise",
         timeouts: Timeouts = Timeouts(),  # noqa: B008 - frozen
         limits: Limits = Limits(),  # noqa: B008 - frozen
         on_error: OnError = "raise",
@@ -146,6 +160,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             logger_services=logger_services,
             use_sim_time=use_sim_time,
             heartbeat=heartbeat,
+            without_master=without_master,
             timeouts=timeouts,
             limits=limits,
             on_error=on_error,
@@ -180,7 +195,8 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         own_address = OwnAddress(identity.host, bind, self.master_uri, words=identity.host_words)
         self._supervisor = supervisor
         self._events = events
-        self._user_errors = UserErrors(on_error, self.log, supervisor.end)
+        self._user_errors = UserErrors(on_error, self.log, self._end)
+        self._user_tasks = UserTasks(f"node {self.name}", supervisor.guard, self)
         self._context = context = Context(
             node=self,
             name=self.name,
@@ -195,6 +211,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
             address=Address(self.name, own_address.given),
             supervisor=supervisor,
             user_errors=self._user_errors,
+            user_tasks=self._user_tasks,
             xmlrpc=xmlrpc,
             master=self.master,
             registrar=MasterProxy(xmlrpc, self.master_uri, self.name, timeout=math.inf),
@@ -203,12 +220,15 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
                     node_name=self.name,
                     master_uri=self.master_uri,
                     patience=timeouts.xmlrpc,
-                    slots=asyncio.Semaphore(AT_ONCE),
                     supervisor=supervisor,
                     emit=events.publish,
+                    warn=lambda text: context.log.complain("%s", text),
+                    on_silence=xmlrpc.close_idle,
                 )
             ),
         )
+
+        self._contact = context.contact
 
         # The parts.
         self._acceptor = Acceptor(context, allowed)
@@ -220,7 +240,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         sim_time = SimTime(context, self._topics, self._params)
         self._heartbeat = Heartbeat(context, own_address, sim_time.ask)
         self._introduction = Introduction(
-            context, self._topics, self._params, sim_time, identity.private_params
+            context, self._topics, self._params, sim_time, identity.private_params, events
         )
         slave_api = SlaveApi(
             *(context, self._topics, self._services, self._params),
@@ -231,6 +251,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._levels = LevelChanges()
         self._rosout: Rosout | None = None
         self._close_timeout = timeouts.close
+        self._winding_down = WindingDown(
+            context, self._user_tasks, self._user_errors, self._services.end_calls
+        )
 
     # lifecycle
 
@@ -248,12 +271,22 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         await self._supervisor.start()
         return self
 
-    async def close(self, timeout: float | None = None) -> None:
+    async def close(self, timeout: float | None = None, *, grace: float | None = None) -> None:
         """Close all roles, tell the master, and free everything.
 
         You may call it any number of times, also concurrently. The node waits at most
         ``timeout`` seconds (``timeouts.close`` by default) for others, then drops whatever
         is left. It holds no resources afterwards, whatever others do.
+
+        First your own code ends, while the roles of the node still work. The node cancels its
+        timers and the tasks of :meth:`create_task`, then calls the callbacks of
+        :meth:`on_shutdown`, then lets handlers that answer a service call return. Each of these
+        steps takes at most ``grace`` seconds (by default ``timeout``). Another call with a
+        ``grace`` changes that, the running step included.
+
+        Where the node waits for the code that calls this (a service handler, a callback of
+        :meth:`on_shutdown`, a task that cleans up), the call returns at once, and the node
+        closes afterwards.
         """
         supervisor = self._supervisor
         if supervisor.state == "new":
@@ -262,14 +295,42 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._context.check_loop()
         if timeout is not None:
             self._close_timeout = timeout
-        supervisor.end("closed")
-        await supervisor.wait()
+        if grace is not None:
+            self._winding_down.limit(grace)
+        is_awaited = awaits_caller(self)
+        if supervisor.reason is None:
+            self._user_tasks.exempt_caller()
+        self._user_errors.closing()
+        self._end("closed")
+        if not is_awaited:
+            await supervisor.wait()
+
+    def on_shutdown(self, callback: C) -> C:
+        """Call a function or coroutine function when the node is told to end, and return it.
+
+        It does not matter who ends the node: you, a signal to :func:`aioros1.run`, another node
+        or an error. All roles still work then. Use it to stop what has to be stopped::
+
+            node.on_shutdown(lambda: pub.publish(Twist()))
+
+        Callbacks have no arguments. They are called one after the other, the last one first,
+        after timers and the tasks of the node have ended. All together have ``timeouts.close``
+        seconds; those whose time is over are cancelled, and the others called all the same.
+        Exceptions are handled as ``on_error`` says. Raises :class:`TypeError` for what is not
+        a function, and :class:`~aioros1.ClosedError` once the callbacks are called.
+        """
+        self._context.check_loop()
+        if self._supervisor.state in ("closing", "closed"):
+            self._context.check_open()
+        self._winding_down.add(callback)
+        return callback
 
     def abort(self) -> None:
         """Drop everything at once, without telling the master or peers."""
         self._context.check_loop()
         self._close_timeout = 0
         self._supervisor.end("aborted")
+        self._winding_down.limit(0)
         self._drop()
 
     async def wait_closed(self) -> str:
@@ -342,17 +403,17 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     @property
     def uri(self) -> str:
-        """The URI of the slave API."""
+        """The URI of the slave API. Raises :class:`RuntimeError` before the node is started."""
         return self._context.address.uri
 
     @property
     def tcpros_address(self) -> tuple[str, int]:
-        """The host and port for topics and services."""
+        """The host and port for topics and services; raises as :attr:`uri` does."""
         return self._context.address.tcpros
 
     @property
     def tcpros_uri(self) -> str:
-        """The URI the node registers its services with."""
+        """The URI the node registers its services with; raises as :attr:`uri` does."""
         return self._context.address.tcpros_uri
 
     @property
@@ -415,17 +476,23 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     def create_task(
         self, coro: Coroutine[Any, Any, object], *, name: str | None = None
     ) -> asyncio.Task[None]:
-        """Run a coroutine in a task of the node, which is cancelled when the node closes.
+        """Run a coroutine in a task of the node, which is cancelled when the node is told to
+        end, while its roles still work.
 
         An exception in the coroutine is handled as ``on_error`` says. The task itself does
         not raise it; its result is None. Raises :class:`~aioros1.ClosedError`.
         """
-        if not asyncio.iscoroutine(coro):
-            raise TypeError(f"create_task() takes a coroutine, got {coro!r}")
+        return self._create_task(coro, name, "told")
+
+    def _create_task(
+        self, coro: Coroutine[Any, Any, object], name: str | None, until: Stage
+    ) -> asyncio.Task[None]:
+        check_coroutine(coro, "create_task()")
         what = name if name is not None else f"task of node {self.name}"
         try:
             self._context.check_open()
-            task = self._context.spawn(self._run_for_user, coro, what, name=what)
+            spawn = self._context.spawn_user
+            task = spawn(self._run_for_user, coro, what, name=what, until=until)
         except BaseException:
             coro.close()  # Python warns if it is never awaited
             raise
@@ -449,10 +516,19 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     # the graph
 
     async def peer(self, name: str) -> NodeProxy:
-        """Look up another node by name. Raises :class:`~aioros1.MasterError` if there is none."""
+        """Look up another node by name.
+
+        Raises :class:`~aioros1.NodeNotFound` if there is none, and
+        :class:`~aioros1.MasterError`.
+        """
         context = self._context
         name = context.resolve_name(name)
-        return NodeProxy(context.xmlrpc, await self.master.lookup_node(name), self.name, name)
+        try:
+            uri = await context.contact.reach(lambda: self.master.lookup_node(name))
+        except NodeNotFound as error:
+            similar = await similar_node(context, name)
+            raise NodeNotFound(error.code, f"{error.status}{similar}") from None
+        return NodeProxy(context.xmlrpc, uri, self.name, name)
 
     async def wait_for_master(self, *, timeout: float | None = None) -> None:
         """Wait until the master answers.
@@ -461,69 +537,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         """
         async with deadline(timeout, f"no master at {self.master_uri}") as limit:
             while not await self._heartbeat.greet():
-                limit.why = self._heartbeat.refusal
+                if self._heartbeat.refusal is not None:
+                    limit.why = self._heartbeat.refusal.in_short
                 await self._context.pause(0.1)
-
-    # time
-
-    def now(self) -> Time:
-        """The current time: that of ``/clock`` if the node follows it, else the wall clock's."""
-        return Time.from_nsec(self._context.clock.nanoseconds())
-
-    @property
-    def uses_sim_time(self) -> bool:
-        """Whether the node follows the time of ``/clock``."""
-        return self._context.clock.is_simulated
-
-    async def sleep(self, duration: float | Duration) -> None:
-        """Sleep for ``duration`` seconds of this node's time.
-
-        Raises :class:`~aioros1.ClosedError`.
-        """
-        self._context.check_loop()
-        await self._context.clock.sleep(duration)
-
-    def rate(self, hz: float) -> Rate:
-        """Iterate ``hz`` times per second of this node's time; ends with the node.
-
-        Raises :class:`ValueError` for a rate that is not positive.
-        """
-        self._context.check_iterator()
-        return Rate(self._context.clock, period_of(hz))
-
-    def timer(
-        self,
-        period: float | Duration,
-        callback: Callable[[Time], Any] | Callable[[Time], Awaitable[Any]],
-        *,
-        oneshot: bool = False,
-    ) -> Timer:
-        """Call a function or coroutine function with the time, every ``period`` seconds.
-
-        The timer ends with the node, or when you call :meth:`aioros1.Timer.cancel`. Exceptions
-        in the function are handled as ``on_error`` says.
-        """
-        context = self._context
-        context.check_open()
-        return Timer(
-            *(context.clock, context.spawn, context.user_error, period, callback), oneshot=oneshot
-        )
-
-    @property
-    def next_wakeup(self) -> Time | None:
-        """The earliest simulated time that anything in this node waits for; None if nothing
-        does. This is for programs that step ``/clock``."""
-        moment = self._context.clock.next_awaited
-        return None if moment is None else Time.from_nsec(moment)
-
-    async def wait_for_time(self, time: Time, *, timeout: float | None = None) -> None:
-        """Wait until the simulated time is exactly ``time``, a step of ``/clock``.
-
-        This is for programs that step ``/clock``. Raises :class:`TimeoutError` after
-        ``timeout`` seconds, and :class:`~aioros1.ClosedError`.
-        """
-        self._context.check_loop()
-        await self._context.clock.wait_until_shows(time.to_nsec(), timeout=timeout)
 
     def __repr__(self) -> str:
         return f"<Node {self.name} at {self.master_uri}, {self.state}>"
@@ -536,7 +552,17 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
     def _shut_down(self, reason: str) -> None:
         """Close the node because the master, or anybody else, asked for it."""
         self.log.info("shutdown requested: %s", reason)
+        self._end(reason)
+
+    def _end(self, reason: str) -> None:
+        """Start to end the node."""
         self._supervisor.end(reason)
+        if self._supervisor.state == "open":
+            self._winding_down.begin()
+
+    async def _wind_down(self) -> None:
+        if self._supervisor.state == "open":
+            await self._winding_down.run(self._close_timeout)
 
     async def _begin(self) -> None:
         context, options = self._context, self.options
@@ -551,7 +577,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         self._supervisor.state = "open"
         if options.use_sim_time:
             context.clock.simulate()
-        if not (master_is_there and await self._introduction.was_made()):
+        if not (master_is_there and await self._introduction.make()):
             context.spawn(self._introduce_later, name=f"{self.name} introduction")
         if self._own_address.is_given:
             context.spawn(self._check_address, name=f"{self.name} address")
@@ -571,7 +597,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
 
     async def _introduce_later(self) -> None:
         await self.wait_for_master()
-        while not await self._introduction.was_made():
+        while not await self._introduction.make():
             await self.wait_for_master()
 
     async def _finish(self) -> None:
@@ -591,12 +617,18 @@ class Node(TopicMethods, ServiceMethods, ParamMethods):
         await self._acceptor.wait_closed()
         await self._server.close()
         await self._context.xmlrpc.close()
+        for name in await self._user_tasks.end():
+            self.log.error("%s goes on although it was cancelled: it is left behind", name)
 
     def _drop(self) -> None:
         self._supervisor.state = "closed"
         if self._rosout is not None:
             self._rosout.detach()
         self._levels.restore()
+        self._context.log.close()
+        if self._context.loop_state.loop.is_closed():
+            return  # Python drops the rest: nothing can be scheduled any more
+        self._user_tasks.cancel_all()
         self._acceptor.close()
         self._topics.abort()
         self._services.abort()
@@ -621,6 +653,7 @@ class _Life:
 
     def __init__(self, node: Node) -> None:
         self.begin = node._begin
+        self.wind_down = node._wind_down
         self.finish = node._finish
         self.free = node._free
         self.drop = node._drop

@@ -11,7 +11,8 @@ from typing import Any
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError
 from aioros1.log.levels import LevelChanges, ros_level
-from aioros1.log.loggers import SilentHandler, topmost
+from aioros1.log.library_log import ROSOUT
+from aioros1.log.loggers import WeakHandler, topmost
 from aioros1.params.params import Params
 from aioros1.time import Time
 from aioros1.topics.options import PublisherOptions
@@ -31,7 +32,7 @@ _FIRST_SUBSCRIBERS = 1.0
 """Seconds that the first records wait for subscribers."""
 
 
-class Rosout(SilentHandler):
+class Rosout:
     """Publishes the records of a node's logger, and of the other loggers that it names.
 
     Records logged in the node's event loop are published at once; records from other threads
@@ -42,7 +43,6 @@ class Rosout(SilentHandler):
     def __init__(
         self, context: Context, topics: Topics, params: Params, levels: LevelChanges
     ) -> None:
-        super().__init__()
         self._context = context
         self._topics = topics
         self._params = params
@@ -57,19 +57,15 @@ class Rosout(SilentHandler):
         """Whether subscribers of the first records may still be connecting."""
         self._progress = Waiters()
         # As rosout does; the application's own handlers decide what else it shows.
-        levels.set_default(context.log.logger, logging.INFO)
-        self._loggers = topmost(context.log.names)
-        for logger in self._loggers:
-            logger.addHandler(self)
+        levels.set_default(logging.getLogger(context.loggers[0]), logging.INFO)
+        self._handler = WeakHandler(topmost(context.loggers), self._take)
 
     def detach(self) -> None:
         """Restore the loggers."""
-        for logger in self._loggers:
-            logger.removeHandler(self)
+        self._handler.detach()
         self._is_ready = False
         self._waiting.clear()
         self._expect(False)
-        super().close()
 
     async def run(self) -> None:
         """Advertise ``/rosout`` as soon as the master accepts it, then publish what waits."""
@@ -77,7 +73,7 @@ class Rosout(SilentHandler):
         while self._publisher is None:
             try:
                 self._publisher = await self._topics.advertise(
-                    "/rosout", "rosgraph_msgs/Log", options
+                    ROSOUT, "rosgraph_msgs/Log", options, warns=False
                 )
             except MasterError:
                 self._expect(False)
@@ -86,7 +82,7 @@ class Rosout(SilentHandler):
         with contextlib.suppress(MasterError):
             disabled = await self._params.get("/rosout_disable_topics_generation", False)
             self._has_topics = disabled is not True
-        publication = self._topics.published("/rosout")
+        publication = self._topics.published(ROSOUT)
         known = publication.known_subscribers if publication is not None else 0
         self._expect(known > 0)
         with contextlib.suppress(TimeoutError):
@@ -117,27 +113,23 @@ class Rosout(SilentHandler):
             self._publish_waiting()
             await self._publisher.close()
 
-    def emit(self, record: logging.LogRecord) -> None:
-        try:
-            self.print_if_nobody_does(record)
-            if self._is_of_another(record):
-                return
-            fields = self._fields(record)
-            is_here = _running_loop() is self._loop
-            if is_here and self._is_publishing:
-                return  # logged while publishing another record: it would never end
-            self._waiting.append(fields)
-            if self._is_ready:
-                if is_here:
-                    self._publish_waiting()
-                else:
-                    self._schedule()
-        except Exception:  # a record that cannot be formatted, handled as in every handler
-            self.handleError(record)
+    def _take(self, record: logging.LogRecord) -> None:
+        if self._is_of_another(record):
+            return
+        fields = self._fields(record)
+        is_here = _running_loop() is self._loop
+        if is_here and self._is_publishing:
+            return  # logged while publishing another record: it would never end
+        self._waiting.append(fields)
+        if self._is_ready:
+            if is_here:
+                self._publish_waiting()
+            else:
+                self._schedule()
 
     def _is_of_another(self, record: logging.LogRecord) -> bool:
         """Whether it comes from a node whose name, and thus its logger, is below ours."""
-        own, name = self._context.log.logger.name, self._context.name
+        own, name = self._context.loggers[0], self._context.name
         if f"{record.name}.".startswith(f"{own}."):
             # The handler of the nearest node is called first.
             record.__dict__.setdefault("ros_node", name)
@@ -149,7 +141,7 @@ class Rosout(SilentHandler):
             "header": {"stamp": Time.from_nsec(self._context.clock.nanoseconds())},
             "level": ros_level(record.levelno),
             "name": self._context.name,
-            "msg": _sendable(self.format(record)),
+            "msg": _sendable(self._handler.format(record)),
             # Records made by hand may have anything there.
             "file": _sendable(str(record.pathname)),
             "function": _sendable(str(record.funcName or "")),

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Unpack, overload
+from typing import Any, Literal, TypedDict, TypeVar, Unpack, overload
 
+from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
-from aioros1.idl import Message
+from aioros1.hints import check_takes, explained, methods_of
+from aioros1.idl import Message, Service
+from aioros1.idl.genpy_types import GenpyMessage, GenpyService
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
 from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
 from aioros1.services.provider_connection import Handler
 from aioros1.services.services import Services
-
-if TYPE_CHECKING:
-    from aioros1.idl import Service
-    from aioros1.idl.genpy_types import GenpyMessage, GenpyService
 
 __all__ = ["ServiceMethods"]
 
@@ -30,9 +29,11 @@ class _CallerKeywords(TypedDict, total=False):
     tcp_nodelay: bool
 
 
+@methods_of("Node")
 class ServiceMethods:
     """The service methods of :class:`~aioros1.Node`."""
 
+    _contact: Contact
     _services: Services
 
     @overload
@@ -65,6 +66,7 @@ class ServiceMethods:
         max_concurrency: int | None = None,
         raw: bool = False,
     ) -> Opening[ServiceProvider[Any, Any]]: ...
+    @explained
     def advertise_service(
         self,
         name: str,
@@ -86,8 +88,11 @@ class ServiceMethods:
         provides the service.
         """
         options = ServiceProviderOptions(max_concurrency=max_concurrency, raw=raw)
-        opening = self._services.advertise(name, type, handler, options)
-        return Opening(opening, f"provider of service {name}")
+        if handler is not None:
+            what = "the serialised request" if raw else "the request"
+            check_takes(handler, f"service {name}: the handler", what)
+        opening = self._services.advertise(name, type, handler, options, self._contact.policy)
+        return Opening(opening, "advertise_service", f"provider of service {name}")
 
     @overload
     def service_caller(
@@ -107,6 +112,7 @@ class ServiceMethods:
         raw: bool = False,
         **options: Unpack[_CallerKeywords],
     ) -> Opening[ServiceCaller[Any, Any]]: ...
+    @explained
     def service_caller(
         self,
         name: str,
@@ -134,7 +140,7 @@ class ServiceMethods:
             persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay, raw=raw
         )
         opening = self._services.caller(name, type, options)
-        return Opening(opening, f"caller of service {name}")
+        return Opening(opening, "service_caller", f"caller of service {name}")
 
     @overload
     async def call(
@@ -182,7 +188,7 @@ class ServiceMethods:
         :class:`~aioros1.HandshakeError` when it refuses, :class:`~aioros1.MasterError`,
         :class:`~aioros1.InvalidNameError` and :class:`~aioros1.ClosedError`.
         """
-        return await self._services.type_of(name)
+        return await self._contact.reach(lambda: self._services.type_of(name))
 
     async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
         """Wait until a service is registered and its provider answers.

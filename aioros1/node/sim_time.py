@@ -68,7 +68,9 @@ class SimTime:
     async def _take_time(self) -> None:
         clock = self._context.clock
         options = SubscriberOptions(queue_size=1)
-        sub = await self._topics.subscribe("/clock", "rosgraph_msgs/Clock", None, options)
+        sub = await self._topics.subscribe(
+            "/clock", "rosgraph_msgs/Clock", None, options, warns=False
+        )
         async with sub:
             try:
                 clock.set((await sub.get(timeout=_SILENCE)).clock)

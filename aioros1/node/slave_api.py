@@ -7,6 +7,7 @@ that it failed. rosnode, roswtf and the master read the values.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ from aioros1.core.context import Context
 from aioros1.names import canonicalize
 from aioros1.net.local_transports import LocalTransports
 from aioros1.params.params import Params
+from aioros1.quoting import printable
 from aioros1.services.services import Services
 from aioros1.topics.topics import Topics
 from aioros1.wire.handshake import MAX_NAME
@@ -27,6 +29,9 @@ if TYPE_CHECKING:
 __all__ = ["SlaveApi"]
 
 Triple = list[Any]
+
+_REPLACED = re.compile(r"\[(/[^\]\s]*)\] Reason: ")
+"""How the reason of a shutdown begins that a master sends: with the node that it is for."""
 
 
 class SlaveApi:
@@ -122,19 +127,28 @@ class SlaveApi:
         return [1, "publications", rows]
 
     def shutdown(self, caller_id: Any, reason: Any = "") -> Triple | Reply:
-        """Answer, then close the node. Anyone may call this, as rosnode kill does."""
+        """Answer, then close the node. Anyone may call this, as rosnode kill does.
+
+        A master names the node that another one of the same name replaces, and calls the
+        address at which that node was. If its process is gone, we may have its port now.
+        """
         if not isinstance(reason, str):
             return _wrong("msg", reason, "a string")
-        who = caller_id if isinstance(caller_id, str) else "unknown caller"
-        why = f"[{who:.200}] {reason:.1000}"
+        addressee = _REPLACED.match(reason)
+        if addressee is not None and canonicalize(addressee[1]) != self._context.name:
+            self._context.log.info("ignored a shutdown that is meant for %s", addressee[1])
+            text = f"this is {self._context.name}, not {printable(addressee[1])}"
+            return [-1, text, 0]
+        who = printable(caller_id) if isinstance(caller_id, str) else "unknown caller"
+        why = f"[{who}] {printable(reason)}"
         return Reply([1, "shutdown", 0], after=lambda: self._shut_down(why))
 
     def param_update(self, caller_id: Any, key: Any, value: Any) -> Triple:
         if not _is_name(key) or not key.startswith("/"):
             return _wrong("parameter_key", key, "a string that starts with '/'")
         # The master sends the key with a trailing slash, tools without.
-        if not self._params.updated(canonicalize(key), value):
-            return [-1, f"not subscribed to parameter {key:.200}", 0]
+        if not self._params.announced(canonicalize(key), value):
+            return [-1, f"not subscribed to parameter {printable(key)}", 0]
         return [1, "", 0]
 
     def publisher_update(self, caller_id: Any, topic: Any, publishers: Any) -> Triple:
@@ -153,7 +167,7 @@ class SlaveApi:
         if not isinstance(protocols, list) or not protocols:
             return _wrong("protocols", protocols, "a list of [protocol, parameter, ...]")
         if self._topics.published(canonicalize(topic)) is None:
-            return [-1, f"{self._context.name} does not publish {topic:.200}", []]
+            return [-1, f"{self._context.name} does not publish {printable(topic)}", []]
         # Skip other protocols, whatever they look like: the caller may well support this
         # one too.
         readable = [each for each in protocols if _is_protocol(each)]
@@ -181,7 +195,7 @@ def _bus_info(info: ConnectionInfo) -> list[Any]:
 
 
 def _wrong(parameter: str, value: object, expected: str) -> Triple:
-    return [-1, f"{parameter} must be {expected}, got {brief(value)}", 0]
+    return [-1, f"{parameter} must be {expected}, got {printable(brief(value), 100)}", 0]
 
 
 def _is_name(value: object) -> bool:

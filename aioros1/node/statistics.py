@@ -6,9 +6,8 @@ is true when it starts. Otherwise it costs one attribute look-up per socket read
 
 from __future__ import annotations
 
-import statistics
+import math
 import struct
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
@@ -77,8 +76,11 @@ class Statistics:
         batch = frames[0][0]
         link = batch.link
         window = self._windows.get(link)
-        if window is None:
-            window = self._windows[link] = _Window(batch.received, subscription.has_header)
+        if window is None or batch.received < window.last:
+            # The clock was set back, so what was measured means nothing.
+            last_seq = None if window is None else window.last_seq
+            window = _Window(batch.received, subscription.has_header, last_seq)
+            self._windows[link] = window
         window.add(frames)
         if batch.received - window.begin < window.length:
             return
@@ -111,39 +113,44 @@ class _Window:
         self.has_header = has_header
         self.last_seq = last_seq
         self.length = length
-        self._arrivals: list[int] = []
-        self._ages: list[int] = []
+        self.last = begin
+        """When the last message arrived."""
+        self._count = 0
+        # Figures, and no values: the clock may stand still for hours while messages come.
+        self._periods = _Figures()
+        self._ages = _Figures()
         self._bytes = 0
         self._dropped = 0
 
     def add(self, frames: list[Received]) -> None:
         for batch, start, stop in frames:
-            self._arrivals.append(batch.received)
+            if self._count:
+                self._periods.add(batch.received - self.last)
+            self._count += 1
+            self.last = batch.received
             self._bytes += stop - start + 4
             if not self.has_header or stop - start < _HEADER.size:
                 continue
             seq, secs, nsecs = _HEADER.unpack_from(batch.data, start)
-            self._ages.append(batch.received - secs * _SECOND - nsecs)
+            self._ages.add(batch.received - secs * _SECOND - nsecs)
             # A publisher that restarts its count has not dropped anything.
             if self.last_seq is not None and seq > self.last_seq:
                 self._dropped += seq - self.last_seq - 1
             self.last_seq = seq
 
     def figures(self) -> dict[str, Any]:
-        arrivals = self._arrivals
-        periods = [after - before for before, after in pairwise(arrivals)]
         return {
-            "delivered_msgs": len(arrivals),
+            "delivered_msgs": min(self._count, 0x7FFFFFFF),
             "dropped_msgs": min(self._dropped, 0x7FFFFFFF),
             "traffic": min(self._bytes, 0x7FFFFFFF),
-            **_summary("period", periods),
-            **_summary("stamp_age", self._ages),
+            **self._periods.summary("period"),
+            **self._ages.summary("stamp_age"),
         }
 
     def next_length(self, bounds: dict[str, float]) -> int:
         """The next window's length: longer after few messages, shorter after many, as in rospy
         and roscpp."""
-        count, length = len(self._arrivals), self.length
+        count, length = self._count, self.length
         if count > bounds["max_elements"] and length / 2 >= bounds["min_size"] * _SECOND:
             return length // 2
         if count < bounds["min_elements"] and length * 2 <= bounds["max_size"] * _SECOND:
@@ -151,18 +158,35 @@ class _Window:
         return length
 
 
-def _summary(name: str, values: list[int]) -> dict[str, Duration]:
-    if not values:
-        return {}
-    figures = {
-        "mean": statistics.fmean(values),
-        "stddev": statistics.pstdev(values),
-        "max": max(values),
-    }
-    return {
-        f"{name}_{figure}": Duration.from_nsec(_within(round(value)))
-        for figure, value in figures.items()
-    }
+class _Figures:
+    """The mean, the standard deviation and the maximum of numbers that are not kept."""
+
+    def __init__(self) -> None:
+        self._count = 0
+        self._mean = 0.0
+        self._squares = 0.0  # the sum of the squared distances from the mean
+        self._max = 0
+
+    def add(self, value: int) -> None:
+        self._max = value if not self._count else max(self._max, value)
+        self._count += 1
+        distance = value - self._mean
+        self._mean += distance / self._count
+        self._squares += distance * (value - self._mean)
+
+    def summary(self, name: str) -> dict[str, Duration]:
+        """The fields of a message that begin with ``name``; none without numbers."""
+        if not self._count:
+            return {}
+        figures = {
+            "mean": self._mean,
+            "stddev": math.sqrt(self._squares / self._count),
+            "max": self._max,
+        }
+        return {
+            f"{name}_{figure}": Duration.from_nsec(_within(round(value)))
+            for figure, value in figures.items()
+        }
 
 
 def _within(nanoseconds: int) -> int:

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Unpack, overload
+from typing import Any, Literal, TypedDict, TypeVar, Unpack, overload
 
+from aioros1.core.contact import Contact
 from aioros1.core.opening import Opening
+from aioros1.hints import check_takes, explained, methods_of
 from aioros1.idl import Message
+from aioros1.idl.genpy_types import GenpyMessage
+from aioros1.idl.message import AnyMessage
 from aioros1.options import DEFAULT_QUEUE_SIZE, Overflow
 from aioros1.topics.options import PublisherOptions, SubscriberOptions
 from aioros1.topics.publisher import Publisher
 from aioros1.topics.subscriber import Subscriber
 from aioros1.topics.topics import Topics
-
-if TYPE_CHECKING:
-    from aioros1.idl.genpy_types import GenpyMessage
-    from aioros1.idl.message import AnyMessage
 
 __all__ = ["TopicMethods"]
 
@@ -37,9 +37,11 @@ class _SubscriberKeywords(TypedDict, total=False):
     views: bool
 
 
+@methods_of("Node")
 class TopicMethods:
     """The topic methods of :class:`~aioros1.Node`."""
 
+    _contact: Contact
     _topics: Topics
 
     @overload
@@ -50,6 +52,7 @@ class TopicMethods:
     def advertise(
         self, topic: str, type: str | type[GenpyMessage], **options: Unpack[_PublisherKeywords]
     ) -> Opening[Publisher[Any]]: ...
+    @explained
     def advertise(
         self,
         topic: str,
@@ -75,7 +78,8 @@ class TopicMethods:
             tcp_nodelay=tcp_nodelay,
             headers=headers,
         )
-        return Opening(self._topics.advertise(topic, type, options), f"publisher {topic}")
+        opening = self._topics.advertise(topic, type, options, self._contact.policy)
+        return Opening(opening, "advertise", f"publisher {topic}")
 
     @overload
     def subscribe(
@@ -129,6 +133,7 @@ class TopicMethods:
         raw: bool,
         **options: Unpack[_SubscriberKeywords],
     ) -> Opening[Subscriber[Any]]: ...
+    @explained
     def subscribe(
         self,
         topic: str,
@@ -158,10 +163,11 @@ class TopicMethods:
             raw=raw,
             views=views,
         )
-        if callback is not None and not callable(callback):
-            raise TypeError(f"subscriber {topic}: the callback is a function, got {callback!r}")
-        opening = self._topics.subscribe(topic, type, callback, options)
-        return Opening(opening, f"subscriber {topic}")
+        if callback is not None:
+            what = "the serialised message" if raw else "the message"
+            check_takes(callback, f"subscriber {topic}: the callback", what)
+        opening = self._topics.subscribe(topic, type, callback, options, self._contact.policy)
+        return Opening(opening, "subscribe", f"subscriber {topic}")
 
     @overload
     async def wait_for_message(

@@ -9,7 +9,7 @@ from aioros1.errors import MasterError
 from aioros1.node.identity import master_uri_of
 from aioros1.waiting import deadline
 from aioros1.xmlrpc.client import XmlRpcClient
-from aioros1.xmlrpc.master_proxy import MasterProxy
+from aioros1.xmlrpc.master_proxy import MasterProxy, identify
 
 __all__ = ["wait_for_master"]
 
@@ -28,9 +28,9 @@ async def wait_for_master(uri: str | None = None, *, timeout: float | None = Non
         async with deadline(timeout, f"no master at {uri}") as limit:
             while True:
                 try:
-                    await master.get_pid()
+                    await identify(master)
                 except MasterError as error:
-                    limit.why = error
+                    limit.why = error.in_short
                 else:
                     return
                 await asyncio.sleep(0.1)

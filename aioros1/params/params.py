@@ -9,6 +9,8 @@ from typing import Any
 
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
+from aioros1.options import WithoutMaster
+from aioros1.params.cache import ParamCache
 from aioros1.params.followed import FollowedParam
 from aioros1.params.subscriber import ParamSubscriber
 from aioros1.wire.xmlrpc import decode_response, encode_response
@@ -23,20 +25,31 @@ class Params:
         self.followed: dict[str, FollowedParam] = {}
         """By key, for as long as a subscriber uses them."""
         self._context = context
-        self._cached: dict[str, ParamSubscriber] = {}
+        self._cache = ParamCache(self.subscribe)
         # Changes on their way to the master whose callers were cancelled.
         self._left_alone: set[asyncio.Future[Exception | None]] = set()
 
-    async def subscribe(self, key: str, default: Any) -> ParamSubscriber:
-        """See :meth:`aioros1.Node.subscribe_param`."""
+    async def subscribe(
+        self,
+        key: str,
+        default: Any,
+        without_master: WithoutMaster = "raise",
+        *,
+        keeps_updates: bool = True,
+    ) -> ParamSubscriber:
+        """See :meth:`aioros1.Node.subscribe_param`.
+
+        Without ``keeps_updates`` there is nothing to iterate over.
+        """
         context = self._context
         key = self._key(key)
         followed = self.followed.get(key)
         if followed is None:
             followed = FollowedParam(context, key, self.followed)
-        subscriber = ParamSubscriber(context, followed, default)
-        await followed.acquire(subscriber)
+        subscriber = ParamSubscriber(context, followed, default, keeps_updates)
+        await followed.acquire(subscriber, without_master)
         await context.admit(subscriber, subscriber._abort)
+        followed.keep_true()
         subscriber._begin()
         return subscriber
 
@@ -90,27 +103,18 @@ class Params:
 
     async def get_cached(self, key: str, default: Any = ...) -> Any:
         """See :meth:`aioros1.Node.get_param_cached`."""
-        resolved = self._key(key)
-        subscriber = self._cached.get(resolved)
-        if subscriber is None:
-            subscriber = await self.subscribe(resolved, ...)
-            # Another task may have done the same in the meantime.
-            if resolved in self._cached:
-                await subscriber.close()
-            subscriber = self._cached.setdefault(resolved, subscriber)
-        try:
-            return subscriber.value
-        except KeyError:
-            if default is ...:
-                raise
-            return default
+        return await self._cache.get(self._key(key), default)
 
-    def updated(self, key: str, value: Any) -> bool:
-        """Pass an update on to the parameters it concerns; returns whether there are any."""
-        concerned = [followed for followed in self.followed.values() if followed.concerns(key)]
+    def announced(self, key: str, value: Any) -> bool:
+        """Pass a notice of the master on to the parameters it concerns; returns whether there
+        are any."""
+        concerned = self._concerned(key)
         for followed in concerned:
-            followed.update(key, value)
+            followed.announced(key, value)
         return bool(concerned)
+
+    def _concerned(self, key: str) -> list[FollowedParam]:
+        return [followed for followed in self.followed.values() if followed.concerns(key)]
 
     async def _change(
         self, key: str, value: Any, tell_master: Callable[[], Awaitable[None]]
@@ -145,22 +149,27 @@ class Params:
         value: Any,
         tell_master: Callable[[], Awaitable[None]],
     ) -> None:
+        concerned = self._concerned(key)
+        for followed in concerned:
+            followed.change_begins()
         try:
             await tell_master()
             # The master tells everybody except the node that made the change.
-            self.updated(key, value)
+            for followed in self._concerned(key):
+                followed.changed(key, value)
         except Exception as error:
-            if isinstance(error, MasterUnreachable):
-                self._doubt(key)
+            if isinstance(error, MasterUnreachable):  # it may have made the change
+                for followed in self._concerned(key):
+                    followed.doubt()
             outcome.set_result(error)
         else:
             outcome.set_result(None)
-
-    def _doubt(self, key: str) -> None:
-        """Have followers of ``key`` ask again with the next heartbeat: it may have changed."""
-        for followed in self.followed.values():
-            if followed.concerns(key):
-                followed.registration.forget()
+        finally:
+            for followed in concerned:
+                followed.change_ends()
+            for followed in self._concerned(key):
+                if followed not in concerned:  # it did not know, and may have believed a notice
+                    followed.doubt()
 
     def _key(self, key: str) -> str:
         self._context.check_open()

@@ -5,18 +5,21 @@ from __future__ import annotations
 import copy
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 from aioros1._public import public
+from aioros1.core.context import Context
 from aioros1.core.role import Role
 from aioros1.events import ParamUpdate
+from aioros1.params.followed import FollowedParam
+from aioros1.params.tree import weight
 from aioros1.waiting import Waiters
 
-if TYPE_CHECKING:
-    from aioros1.core.context import Context
-    from aioros1.params.followed import FollowedParam
-
 __all__ = ["ParamSubscriber"]
+
+_MAX_UPDATES = 1000
+_MAX_WEIGHT = 16 << 20
+"""Bytes of the updates that wait, roughly."""
 
 
 @public
@@ -25,12 +28,17 @@ class ParamSubscriber(Role):
     :meth:`aioros1.Node.subscribe_param`."""
 
     kind = "parameter subscriber"
+    _factory = "subscribe_param"
 
-    def __init__(self, context: Context, followed: FollowedParam, default: Any) -> None:
+    def __init__(
+        self, context: Context, followed: FollowedParam, default: Any, keeps_updates: bool
+    ) -> None:
         super().__init__(context, followed.name)
         self._followed = followed
         self._default = default
-        self._updates: deque[ParamUpdate] = deque(maxlen=1000)
+        self._keeps_updates = keeps_updates
+        self._updates: deque[tuple[ParamUpdate, int]] = deque()  # with their weights
+        self._weight = 0
         self._arrived = Waiters()
 
     @property
@@ -57,7 +65,7 @@ class ParamSubscriber(Role):
             if not self._is_open:
                 raise StopAsyncIteration
             await self._arrived.wait()
-        return self._updates.popleft()
+        return self._pop()
 
     async def wait_for(
         self, predicate: Callable[[Any], object], *, timeout: float | None = None
@@ -87,20 +95,43 @@ class ParamSubscriber(Role):
 
     def _begin(self) -> None:
         """Drop the updates from before the subscriber was handed out: its value has them."""
-        self._updates.clear()
+        self._clear()
 
     def _put(self, update: ParamUpdate) -> None:
-        if len(self._updates) == self._updates.maxlen:
-            self.stats.dropped += 1
-        self._updates.append(update)
         self.stats.messages += 1
+        if self._keeps_updates:
+            added = weight(update.value)
+            self._updates.append((update, added))
+            self._weight += added
+            # Most only look at the value, so what waits must not fill the memory.
+            while len(self._updates) > _MAX_UPDATES or (
+                self._weight > _MAX_WEIGHT and len(self._updates) > 1
+            ):
+                if not self.stats.dropped:
+                    self._context.log.warning(
+                        "parameter subscriber %s: an update was dropped, because %s wait to be "
+                        "taken. `value` is right all the same. Further drops are only counted, in "
+                        "`stats`",
+                        *(self.name, len(self._updates)),
+                    )
+                self._pop()
+                self.stats.dropped += 1
         self._arrived.wake()
+
+    def _pop(self) -> ParamUpdate:
+        update, removed = self._updates.popleft()
+        self._weight -= removed
+        return update
+
+    def _clear(self) -> None:
+        self._updates.clear()
+        self._weight = 0
 
     def _abort(self) -> None:
         super()._abort()
         self._arrived.wake()
 
     async def _close(self) -> None:
-        self._updates.clear()
+        self._clear()
         self._arrived.wake()
         await self._followed.leave(self)

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["dig", "graft", "is_below", "path_to"]
+__all__ = ["dig", "graft", "is_below", "path_to", "same", "weight"]
 
 
 def is_below(key: str, other: str) -> bool:
     """Whether ``key`` lies below ``other``."""
-    return other == "/" or key.startswith(other + "/")
+    return key != other and key.startswith(other if other == "/" else other + "/")
 
 
 def path_to(key: str, above: str) -> list[str]:
-    """The names that lead from ``above`` to ``key`` below it."""
-    return key[len(above.rstrip("/")) + 1 :].split("/")
+    """The names that lead from ``above`` to ``key`` below it; none if they are the same."""
+    return [name for name in key[len(above.rstrip("/")) :].split("/") if name]
 
 
 def dig(value: Any, path: list[str]) -> Any:
@@ -31,6 +31,8 @@ def graft(tree: Any, path: list[str], value: Any) -> Any:
 
     Removes a deleted key, which is announced as ``{}``.
     """
+    if not path:
+        return value
     tree = dict(tree) if isinstance(tree, dict) else {}
     name, *rest = path
     if rest:
@@ -40,3 +42,45 @@ def graft(tree: Any, path: list[str], value: Any) -> Any:
     else:
         tree[name] = value
     return tree
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values are the same parameter: equal, and of one type at every place.
+
+    ``1``, ``1.0`` and ``True`` are three values, and NaN is the same as NaN.
+    """
+    pending = [(one, other)]
+    while pending:
+        one, other = pending.pop()
+        if one is other:
+            continue
+        if type(one) is not type(other):
+            return False
+        if isinstance(one, dict):
+            if one.keys() != other.keys():
+                return False
+            pending += [(value, other[key]) for key, value in one.items()]
+        elif isinstance(one, list):
+            if len(one) != len(other):
+                return False
+            pending += zip(one, other, strict=True)
+        elif one != other and (one == one or other == other):
+            return False
+    return True
+
+
+def weight(value: Any) -> int:
+    """About how many bytes of memory ``value`` takes."""
+    total = 0
+    pending = [value]
+    while pending:
+        value = pending.pop()
+        total += 56
+        if isinstance(value, (str, bytes)):
+            total += len(value)
+        elif isinstance(value, dict):
+            total += sum(map(len, value))
+            pending += value.values()
+        elif isinstance(value, list):
+            pending += value
+    return total

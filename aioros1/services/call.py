@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from aioros1._public import public
-from aioros1.errors import ClosedError, ServiceError
+from aioros1.errors import ClosedError, SerializationError, ServiceError
+from aioros1.idl.genpy_types import GenpyMessage
+from aioros1.quoting import printable
 from aioros1.services.side import Side
-
-if TYPE_CHECKING:
-    from aioros1.idl.genpy_types import GenpyMessage
 
 __all__ = ["ServiceCall"]
 
@@ -23,13 +22,14 @@ A = TypeVar("A")
 class ServiceCall(Generic[Q, A]):
     """A call that waits for your answer; an item of ``async for call in provider``."""
 
-    __slots__ = ("_answer", "_closed", "_side", "header", "request")
+    __slots__ = ("_answer", "_closed", "_service", "_side", "header", "request")
 
-    def __init__(self, request: Q, header: Mapping[str, str], side: Side) -> None:
+    def __init__(self, service: str, request: Q, header: Mapping[str, str], side: Side) -> None:
         self.request = request
         """The request; bytes for a raw provider."""
         self.header = header
         """The caller's connection header; ``header["callerid"]`` is its name."""
+        self._service = service
         self._side = side
         # An error is stored as a result, because the caller may be gone and never await it.
         self._answer: asyncio.Future[bytes | ServiceError] = (
@@ -54,7 +54,11 @@ class ServiceCall(Generic[Q, A]):
         answer a call whose caller is gone.
         """
         side = self._side
-        self._settle(side.frame(side.outgoing(response, fields)))
+        try:
+            answer = side.frame(side.outgoing(response, fields))
+        except SerializationError as error:
+            raise error.locate(side.outgoing_type, f"from {self._service}")  # noqa: B904 - the same
+        self._settle(answer)
 
     async def fail(self, text: str) -> None:
         """Answer that the call failed; the caller gets ``text``."""
@@ -72,4 +76,4 @@ class ServiceCall(Generic[Q, A]):
 
     def __repr__(self) -> str:
         state = "answered" if self._answer.done() else "waits for an answer"
-        return f"<ServiceCall of {self.caller_id}, {state}>"
+        return f"<ServiceCall of {printable(self.caller_id)}, {state}>"

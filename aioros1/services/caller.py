@@ -6,20 +6,29 @@ import asyncio
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
+from numbers import Real
 from threading import get_ident
 from types import EllipsisType
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
+from typing import Any, Generic, TypeVar, cast
 
 from aioros1._public import public
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
+from aioros1.core.hints import Hint, similar_service
 from aioros1.core.role import Role
 from aioros1.errors import (
     ClosedError,
     DeserializationError,
     HandshakeError,
     MasterError,
+    SerializationError,
     ServiceError,
+    ServiceNotFound,
     ServiceUnavailable,
 )
+from aioros1.hints import check_kinds
+from aioros1.idl import Service
+from aioros1.idl.genpy_types import GenpyMessage
 from aioros1.net.backoff import Backoff
 from aioros1.services.caller_connection import CallerConnection, connect_to
 from aioros1.services.lookup import look_up, probe
@@ -27,12 +36,6 @@ from aioros1.services.side import Side, callers_side, raw_side
 from aioros1.waiting import Deadlines, Mutex
 from aioros1.wire.handshake import ServiceOffer
 from aioros1.wire.service import ANSWER_HEAD, SUCCESS, ServiceFrameError
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl import Service
-    from aioros1.idl.genpy_types import GenpyMessage
 
 __all__ = ["PendingCall", "ServiceCaller", "ServiceCallerOptions"]
 
@@ -58,6 +61,18 @@ class ServiceCallerOptions:
     raw: bool = False
     """Send requests and return responses as serialised bytes."""
 
+    def __post_init__(self) -> None:
+        flag = (bool, "True or False")
+        check_kinds(
+            self,
+            {
+                "persistent": flag,
+                "timeout": (Real | None, "a number of seconds or None"),
+                "tcp_nodelay": flag,
+                "raw": flag,
+            },
+        )
+
 
 @public
 class PendingCall(asyncio.Task[A]):
@@ -77,6 +92,7 @@ class ServiceCaller(Role, Generic[Q, A]):
     """
 
     kind = "service caller"
+    _factory = "service_caller"
 
     def __init__(
         self,
@@ -149,7 +165,10 @@ class ServiceCaller(Role, Generic[Q, A]):
             self._check_open()
         side = self._side
         if fields or request.__class__ is not side.outgoing_class:
-            request = side.outgoing(request, fields)
+            try:
+                request = side.outgoing(request, fields)
+            except SerializationError as error:
+                raise error.locate(side.outgoing_type, f"to {self.name}")  # noqa: B904 - the same
         answer = await self._call(side, request, timeout)
         return cast("A", answer)
 
@@ -170,7 +189,10 @@ class ServiceCaller(Role, Generic[Q, A]):
         return cast("bytes", answer)
 
     async def _call(self, side: Side, request: Any, timeout: float | EllipsisType | None) -> Any:
-        frame = side.frame(request)
+        try:
+            frame = side.frame(request)
+        except SerializationError as error:
+            raise error.locate(side.outgoing_type, f"to {self.name}")  # noqa: B904 - the same
         seconds = self.options.timeout if isinstance(timeout, EllipsisType) else timeout
         kept, mutex = self._kept, self._mutex
         if seconds is None and kept is not None and not mutex.is_held and kept.link.is_fresh:
@@ -182,7 +204,8 @@ class ServiceCaller(Role, Generic[Q, A]):
             finally:
                 mutex.release()
         try:
-            async with self._limits.limit(seconds, f"service {self.name}: no answer"):
+            async with self._limits.limit(seconds, f"service {self.name}: no answer") as limit:
+                limit.why = self._context.contact.obstacle
                 if not self.options.persistent:
                     return await self._call_once(side, frame)
                 async with mutex:
@@ -227,10 +250,17 @@ class ServiceCaller(Role, Generic[Q, A]):
         """
         # The master announces no new services, so we have to poll.
         backoff = Backoff(first=0.02, longest=0.5)
-        async with self._limits.limit(timeout, f"service {self.name} did not appear") as limit:
-            while (obstacle := await self._obstacle()) is not None:
-                limit.why = obstacle
-                await self._context.pause(backoff.delay())
+        obstacle: Exception | None = None
+        seen = f"service {self.name}: "
+        what = f"service {self.name} did not appear"
+        async with self._limits.limit(timeout, what) as limit:
+            with Hint(
+                *(self._context, "services", self.name),
+                lambda: _in_short(obstacle).removeprefix(seen),
+                timeout,
+            ) as limit.why:
+                while (obstacle := await self._obstacle()) is not None:
+                    await self._context.pause(backoff.delay())
 
     async def _obstacle(self) -> Exception | None:
         """Why the service is not available; None when it is."""
@@ -303,7 +333,7 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     async def _connect(self) -> CallerConnection:
         context, options = self._context, self.options
-        self.provider_uri = await look_up(context, self.name)
+        self.provider_uri = await context.contact.reach(self._look_up)
         connection = await connect_to(
             context,
             self.provider_uri,
@@ -318,6 +348,13 @@ class ServiceCaller(Role, Generic[Q, A]):
         connection.link.ended = lambda: self._drop(connection)  # also between calls
         context.connections.add(self.kind, connection.link, connection.info)
         return connection
+
+    async def _look_up(self) -> str:
+        try:
+            return await look_up(self._context, self.name)
+        except ServiceNotFound as error:
+            similar = await similar_service(self._context, self.name)
+            raise ServiceNotFound(f"{error.text}{similar}") from error.__cause__
 
     def _drop(self, connection: CallerConnection) -> None:
         connection.link.ended = None  # breaks a reference cycle
@@ -335,3 +372,9 @@ class ServiceCaller(Role, Generic[Q, A]):
 
     async def _close(self) -> None:
         self._abort()
+
+
+def _in_short(obstacle: Exception | None) -> str:
+    if isinstance(obstacle, MasterError):
+        return obstacle.in_short
+    return "" if obstacle is None else str(obstacle)

@@ -17,6 +17,7 @@ from aioros1.errors import (
 )
 from aioros1.idl.parser import split_type
 from aioros1.net.tcpros import Stream, connect
+from aioros1.quoting import printable
 from aioros1.waiting import Deadlines
 from aioros1.wire.handshake import ServiceClient, ServiceOffer
 
@@ -38,7 +39,9 @@ async def look_up(context: Context, service: str) -> str:
     except MasterError as error:
         if not error.is_refusal:
             raise
-        raise ServiceNotFound(f"service {service}: no provider: {error.status}") from error
+        raise ServiceNotFound(
+            f"service {service}: no provider: the master at {context.master.uri} knows none"
+        ) from error
 
 
 async def agree(
@@ -59,7 +62,7 @@ async def agree(
     try:
         stream = await connect(*_address(service, uri), context.timeouts)
     except (OSError, TimeoutError) as error:
-        raise ServiceUnavailable(f"service {service}: {error}") from error
+        raise ServiceUnavailable(f"service {service}: {error}") from None
     try:
         client = ServiceClient(
             f"{service} at {stream.peer}",
@@ -75,7 +78,7 @@ async def agree(
         try:
             await stream.receive_header(client, timeout=context.timeouts.handshake)
         except (OSError, TimeoutError) as error:
-            raise ServiceUnavailable(f"service {service}: {error}") from error
+            raise ServiceUnavailable(f"service {service}: {error}") from None
     except BaseException:
         stream.abort()
         raise
@@ -108,9 +111,10 @@ def type_of(service: str, header: Mapping[str, str]) -> str:
     name = header.get("type", "")
     try:
         split_type(name)
-    except InvalidNameError as error:
-        peer = f"{service} of {header.get('callerid', '?')}"
-        raise HandshakeError(peer, f"expected its type as package/Type, got {name!r}") from error
+    except InvalidNameError:
+        peer = f"{service} of {printable(header.get('callerid', '?'))}"
+        text = f"expected its type as package/Type, got {printable(name)!r}"
+        raise HandshakeError(peer, text) from None
     return name
 
 
@@ -124,7 +128,8 @@ def service_class_of(context: Context, service: str, header: Mapping[str, str]) 
     :func:`agree` does.
     """
     name = type_of(service, header)
-    what = f"service {service} of {header.get('callerid', '?')} has type {name}"
+    provider = printable(header.get("callerid", "?"))
+    what = f"service {service} of {provider} has type {printable(name)}"
     try:
         known = context.store.load_srv(name)
     except MessageNotFoundError as error:
@@ -132,7 +137,8 @@ def service_class_of(context: Context, service: str, header: Mapping[str, str]) 
     md5sum = header.get("md5sum", "*")
     if md5sum not in ("*", known._md5sum):
         raise Md5MismatchError(
-            f"{what} with md5sum {md5sum}, but the definition known here has {known._md5sum}"
+            f"{what} with md5sum {printable(md5sum)}, but the definition known here has "
+            f"{known._md5sum}"
         )
     return known
 
@@ -145,5 +151,5 @@ def _address(service: str, uri: str) -> tuple[str, int]:
     except ValueError:
         pass  # no port, or unbalanced brackets
     raise ServiceUnavailable(
-        f"service {service}: the master gives {uri!r}, expected rosrpc://host:port"
+        f"service {service}: the master gives {printable(uri)!r}, expected rosrpc://host:port"
     )

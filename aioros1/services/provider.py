@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+from numbers import Integral
+from typing import Any, Generic, Self, TypeVar
 
 from aioros1._public import public
+from aioros1.connection import ConnectionInfo
+from aioros1.core.awaited import awaits_caller
+from aioros1.core.context import Context
 from aioros1.core.role import Role
+from aioros1.hints import check_kinds
+from aioros1.idl import Service
 from aioros1.services.call import ServiceCall
 from aioros1.services.provider_connection import Handler
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl import Service
-    from aioros1.services.provision import Provision
+from aioros1.services.provision import Provision
 
 __all__ = ["ServiceProvider", "ServiceProviderOptions"]
 
@@ -35,6 +36,13 @@ class ServiceProviderOptions:
     """Pass requests and responses as serialised bytes."""
 
     def __post_init__(self) -> None:
+        check_kinds(
+            self,
+            {
+                "max_concurrency": (Integral | None, "a whole number of calls or None"),
+                "raw": (bool, "True or False"),
+            },
+        )
         if self.max_concurrency is not None and self.max_concurrency < 1:
             raise ValueError(f"max_concurrency must be at least 1, got {self.max_concurrency!r}")
 
@@ -48,6 +56,7 @@ class ServiceProvider(Role, Generic[Q, A]):
     """
 
     kind = "service"
+    _factory = "advertise_service"
 
     def __init__(
         self,
@@ -107,10 +116,26 @@ class ServiceProvider(Role, Generic[Q, A]):
 
     # the end
 
+    async def close(self) -> None:
+        """Unregister the service from the master and free its resources.
+
+        Calls that a handler works on are still answered. A handler of this service may call
+        this, too: it then returns once the service is unregistered. Otherwise it is as
+        :meth:`.Role.close`.
+        """
+        provision = self._provision
+        if not awaits_caller(provision):
+            await super().close()
+            return
+        self._start_closing()
+        while self._is_closing and provision.is_at_master:
+            await provision.has_left.wait()
+
     def _abort(self) -> None:
         super()._abort()
         self._provision.end_calls(self._closed_error())
         self._provision.abort()
+        self._provision.has_left.wake()
 
     async def _close(self) -> None:
         """Let running calls finish, and start no further ones."""

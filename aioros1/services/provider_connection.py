@@ -12,6 +12,8 @@ import inspect
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
+from aioros1.core.awaited import Awaited
+from aioros1.core.user_errors import described
 from aioros1.errors import DeserializationError, SerializationError, ServiceError
 from aioros1.wire.service import REQUEST_HEAD, SUCCESS, ServiceFrameError, encode_failure
 
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from aioros1.core.stats import RoleStats
     from aioros1.net.service_link import ServiceLink
     from aioros1.services.side import Side
+    from aioros1.waiting import Waiters
     from aioros1.wire.handshake import Server
 
 __all__ = ["Handler", "ProviderConnection"]
@@ -40,12 +43,15 @@ Work: TypeAlias = Coroutine[Any, Any, bytes]
 class Provided(Protocol):
     """What a connection needs of its service."""
 
+    name: str
     side: Side
     handler: Handler[Any, Any] | None
     slots: asyncio.Semaphore | None
     stats: RoleStats
     bytes_received: int
     bytes_sent: int
+    running: int
+    idle: Waiters
 
     @property
     def is_open(self) -> bool:
@@ -61,8 +67,18 @@ class Provided(Protocol):
         """Queue a call for somebody who answers it later."""
         ...
 
+    @property
+    def owner(self) -> object:
+        """The node, for :class:`.Awaited`."""
+        ...
+
     def log_error(self, what: str, error: Exception) -> None:
         """Log what failed."""
+
+    def handler_failed(self, error: BaseException) -> BaseException:
+        """Report what the handler raised, which is no :class:`Exception`. Returns the error for
+        the caller. Raises a cancellation of the running task."""
+        ...
 
 
 class ProviderConnection:
@@ -77,12 +93,15 @@ class ProviderConnection:
         self._info = info
         self._is_lost = False  # the next bytes may be anything
         self._side = provision.side
+        # Whoever closes the provider, or its node, in a handler must not wait for the handler.
+        self._code = Awaited(provision.owner, provision, is_awaited=False)
 
     async def run(self) -> None:
         """Answer calls until the connection ends.
 
         Raises :class:`OSError` and :class:`TimeoutError` when it fails.
         """
+        self._code.enter()
         persistent = self._server.persistent
         if persistent:
             self._link.at_once = self._at_once
@@ -157,15 +176,22 @@ class ProviderConnection:
                     return self._finish(result)
                 result = side.outgoing(result, {})
             return SUCCESS + side.frame(result)
-        except Exception as error:  # whatever the handler raises is for the caller
+        except BaseException as error:  # whatever the handler raises is for the caller
             return self._failure(error)
 
     async def _finish(self, result: Awaitable[Any]) -> bytes:
-        side = self._side
+        side, provision = self._side, self._provision
+        self._code.is_awaited = True
+        provision.running += 1
         try:
             return SUCCESS + side.frame(side.outgoing(await result, {}))
-        except Exception as error:  # whatever the handler raises is for the caller
+        except BaseException as error:  # whatever the handler raises is for the caller
             return self._failure(error)
+        finally:
+            self._code.is_awaited = False
+            provision.running -= 1
+            if not provision.running:
+                provision.idle.wake()
 
     async def _defer(self, request: Any) -> bytes:
         try:
@@ -181,14 +207,18 @@ class ProviderConnection:
             result = provision.handler(request)
             return await result if inspect.isawaitable(result) else result
 
-    def _failure(self, error: Exception) -> bytes:
+    def _failure(self, error: BaseException) -> bytes:
+        """The answer for an exception. Raises a cancellation of the running task."""
         if isinstance(error, ServiceError):
-            return encode_failure(error.text)
+            return encode_failure(described(error))
+        if not isinstance(error, Exception):
+            return encode_failure(described(self._provision.handler_failed(error)))
         if isinstance(error, SerializationError):
+            error.locate(self._side.outgoing_type, f"from {self._provision.name}")
             self._provision.log_error("bad response", error)
-            return encode_failure(f"the service made a bad response: {error}")
+            return encode_failure(f"the service made a bad response: {described(error)}")
         self._provision.log_error("the handler failed", error)
-        return encode_failure(str(error) or type(error).__name__)
+        return encode_failure(described(error))
 
     def _answer(self, answer: bytes) -> None:
         provision = self._provision

@@ -34,6 +34,8 @@ class Providing(Protocol):
 
     async def close(self) -> None: ...
 
+    def _start_closing(self) -> None: ...
+
 
 class Provision(Shared[Providing]):
     """One provided service of one node, and the connections of its callers.
@@ -64,6 +66,13 @@ class Provision(Shared[Providing]):
         self.stats = RoleStats()
         self.bytes_received = 0
         self.bytes_sent = 0
+        self.running = 0
+        """Calls whose handler is a coroutine that has not returned."""
+        self.idle = Waiters()
+        """Woken when no such call is left."""
+        self.has_left = Waiters()
+        """Woken when the last provider has left and the master was told."""
+        self.is_at_master = True
         self.calls: deque[ServiceCall[Any, Any]] = deque()
         """Calls that wait to be taken."""
         self.arrived = Waiters()
@@ -132,7 +141,7 @@ class Provision(Shared[Providing]):
         """
         if not self.is_open:
             raise ServiceError("the service is shut down")
-        call: ServiceCall[Any, Any] = ServiceCall(request, header, self.side)
+        call: ServiceCall[Any, Any] = ServiceCall(self.name, request, header, self.side)
         self.calls.append(call)
         self._unanswered.add(call)
         self.arrived.wake()
@@ -144,9 +153,29 @@ class Provision(Shared[Providing]):
             raise answer
         return answer
 
+    @property
+    def owner(self) -> object:
+        """The node."""
+        return self._context.node
+
+    def handler_failed(self, error: BaseException) -> BaseException:
+        """Report what the handler raised, which is no :class:`Exception`."""
+        return self._context.handler_error(error, f"the handler of service {self.name}")
+
+    async def end_running(self) -> None:
+        """Let handlers that run return, and answer no further calls."""
+        if self.provider is not None:
+            self.provider._start_closing()
+        while self.running:
+            await self.idle.wait()
+        # The caller may be another role of this node, which has to read the answer.
+        while self._links:
+            await self._served.wait()
+
     def log_error(self, what: str, error: Exception) -> None:
-        """Log what failed, with the traceback."""
-        self._context.log.error("service %s: %s", self.name, what, exc_info=error)
+        """Log what failed, with the traceback; callers can make it fail as often as they like."""
+        about = (self.name, what, type(error), str(error))
+        self._context.log.complain("service %s: %s", self.name, what, about=about, error=error)
 
     def end_calls(self, error: ClosedError) -> None:
         """End all waiting calls; answering one later raises ``error``."""
@@ -166,6 +195,8 @@ class Provision(Shared[Providing]):
 
     async def _disconnect(self) -> None:
         """Close connections as they become idle; close the rest when that takes too long."""
+        self.is_at_master = False
+        self.has_left.wake()
         for link in self._links:
             link.stop_reading()
         try:

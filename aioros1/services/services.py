@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Mapping
 from typing import Any
 
 from aioros1.core.context import Context
 from aioros1.errors import HandshakeError
 from aioros1.net.tcpros import Stream
+from aioros1.options import WithoutMaster
+from aioros1.quoting import printable
 from aioros1.services.caller import ServiceCaller, ServiceCallerOptions
 from aioros1.services.lookup import probe, service_class_of, type_of
 from aioros1.services.provider import ServiceProvider, ServiceProviderOptions
@@ -35,6 +38,7 @@ class Services:
         type: Any,
         handler: Handler[Any, Any] | None,
         options: ServiceProviderOptions,
+        without_master: WithoutMaster = "raise",
     ) -> ServiceProvider[Any, Any]:
         """See :meth:`aioros1.Node.advertise_service`."""
         context = self._context
@@ -42,8 +46,6 @@ class Services:
         name = context.resolve_name(name)
         is_any = options.raw and type == "*"
         service_class = None if is_any else context.store.resolve_srv(type)
-        if handler is not None and not callable(handler):
-            raise TypeError(f"service {name}: the handler is a function, got {handler!r}")
         while (other := self.provisions.get(name)) is not None and other.provider is not None:
             if other.is_open:
                 raise ValueError(f"{context.name} provides service {name} already")
@@ -63,7 +65,7 @@ class Services:
             context, provision, service_class, options
         )
         try:
-            await provision.acquire(provider)
+            await provision.acquire(provider, without_master)
         except BaseException:
             provider._abort()  # there may be calls already
             raise
@@ -81,8 +83,9 @@ class Services:
         elif options.raw:
             service_class = None
         else:
-            async with deadline(options.timeout, f"service {name}: no answer"):
-                header = await probe(context, name, self._probes)
+            async with deadline(options.timeout, f"service {name}: no answer") as limit:
+                limit.why = context.contact.obstacle
+                header = await context.contact.reach(lambda: probe(context, name, self._probes))
             service_class = service_class_of(context, name, header)
         caller: ServiceCaller[Any, Any] = ServiceCaller(context, name, service_class, options)
         return await context.admit(caller, caller._abort)
@@ -97,10 +100,11 @@ class Services:
     ) -> Any:
         """See :meth:`aioros1.Node.call`."""
         async with (
-            deadline(timeout, f"service {self._context.resolve_name(name)}: no answer"),
-            await self.caller(name, type, ServiceCallerOptions()) as caller,
+            deadline(timeout, f"service {self._context.resolve_name(name)}: no answer") as limit,
         ):
-            return await caller.call(request, **fields)
+            limit.why = self._context.contact.obstacle
+            async with await self.caller(name, type, ServiceCallerOptions()) as caller:
+                return await caller.call(request, **fields)
 
     async def wait_for(self, name: str, timeout: float | None) -> None:
         """See :meth:`aioros1.Node.wait_for_service`."""
@@ -124,8 +128,15 @@ class Services:
         provision = self.provisions.get(server.service or "")
         if provision is None:
             name = self._context.name
-            raise HandshakeError(name, f"{name} has no service {server.service}")
+            service = printable(server.service)
+            raise HandshakeError(server.peer, f"{name} has no service {service}")
         await provision.serve(stream, server)
+
+    async def end_calls(self) -> None:
+        """Let handlers that run return, while other roles can still be used."""
+        busy = [each for each in self.provisions.values() if each.running]
+        if busy:
+            await asyncio.gather(*(each.end_running() for each in busy))
 
     def abort(self) -> None:
         """End all probes at once."""

@@ -32,6 +32,9 @@ class Side:
     outgoing_class: type
     """The class whose instances :attr:`frame` takes directly."""
 
+    outgoing_type: str
+    """Its type, for errors."""
+
     frame: Callable[[Any], bytes]
     """Encodes such an instance, with its length in front."""
 
@@ -46,7 +49,7 @@ def providers_side(service_class: type[Service[Any, Any]]) -> Side:
     response_class = service_class._response_class
     requests, responses = codec_of(service_class._request_class), codec_of(response_class)
     outgoing = partial(message_from, response_class)
-    return Side(requests.decode, response_class, responses.frame, outgoing)
+    return Side(requests.decode, response_class, response_class._type, responses.frame, outgoing)
 
 
 def callers_side(service_class: type[Service[Any, Any]]) -> Side:
@@ -54,7 +57,7 @@ def callers_side(service_class: type[Service[Any, Any]]) -> Side:
     request_class = service_class._request_class
     requests, responses = codec_of(request_class), codec_of(service_class._response_class)
     outgoing = partial(message_from, request_class, keyword="request")
-    return Side(responses.decode, request_class, requests.frame, outgoing)
+    return Side(responses.decode, request_class, request_class._type, requests.frame, outgoing)
 
 
 def raw_side(what: str) -> Side:
@@ -68,7 +71,7 @@ def raw_side(what: str) -> Side:
             raise SerializationError(f"{what}: expected serialised bytes, got {got:.100}")
         return bytes(value)
 
-    return Side(lambda data, start, stop: data[start:stop], bytes, _frame, outgoing)
+    return Side(lambda data, start, stop: data[start:stop], bytes, "bytes", _frame, outgoing)
 
 
 def _frame(data: bytes) -> bytes:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from aioros1 import Node
 from aioros1._public import public
-
-if TYPE_CHECKING:
-    from aioros1.testing.flaky_proxy import FlakyProxy
-    from aioros1.testing.simulated_clock import SimulatedClock
+from aioros1.testing.flaky_proxy import FlakyProxy
+from aioros1.testing.simulated_clock import SimulatedClock
 
 __all__ = ["MakeFlakyProxy", "MakeNode"]
 
@@ -62,8 +60,6 @@ class MakeFlakyProxy:
         return f"<MakeFlakyProxy, {self._made} made>"
 
     async def __call__(self, host: str, port: int, **options: Any) -> FlakyProxy:
-        from aioros1.testing.flaky_proxy import FlakyProxy
-
         proxy = await self._stack.enter_async_context(FlakyProxy(host, port, **options))
         self._made += 1
         return proxy

@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from aioros1._public import public
+from aioros1.hints import check_kinds
 from aioros1.options import DEFAULT_QUEUE_SIZE, Overflow, check_queue
 
 __all__ = ["PublisherOptions", "SubscriberOptions"]
+
+_FLAG = (bool, "True or False")
 
 
 @public
@@ -32,6 +35,8 @@ class PublisherOptions:
     """Extra fields for the connection header that subscribers receive."""
 
     def __post_init__(self) -> None:
+        headers = (Mapping | None, "a mapping of str to str or None")
+        check_kinds(self, {"latch": _FLAG, "tcp_nodelay": _FLAG, "headers": headers})
         check_queue(self.queue_size, self.overflow)
 
 
@@ -58,4 +63,5 @@ class SubscriberOptions:
     without copying them."""
 
     def __post_init__(self) -> None:
+        check_kinds(self, {"tcp_nodelay": _FLAG, "raw": _FLAG, "views": _FLAG})
         check_queue(self.queue_size, self.overflow)

@@ -15,14 +15,16 @@ the graph sees them as one. This is the sending half of the data path:
 from __future__ import annotations
 
 import asyncio
+from collections import Counter
 from typing import TYPE_CHECKING, Protocol
 
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
-from aioros1.errors import Md5MismatchError
+from aioros1.errors import HandshakeError, Md5MismatchError
 from aioros1.net.tcpros import Stream, connection_info, take_over
 from aioros1.net.topic_links import JOIN, Frame, OutgoingLink
+from aioros1.quoting import printable
 from aioros1.waiting import Waiters
 from aioros1.wire.allocation import keep_memory
 from aioros1.wire.handshake import Server, TopicOffer
@@ -42,6 +44,8 @@ class Publishing(Protocol):
     stats: RoleStats
     _latched: Frame | None
     """The message that every new subscriber gets first."""
+    _warns: bool
+    """Whether to warn of the first message that is dropped."""
 
     @property
     def is_open(self) -> bool: ...
@@ -68,6 +72,9 @@ class Publication(Shared[Publishing]):
         # it down while we iterate over them.
         self._open: tuple[OutgoingLink, ...] = ()
         self._slow: tuple[OutgoingLink, ...] = ()
+        # Connections that are closed once the last messages of closed publishers have gone
+        # out. A publisher that is opened meanwhile has nothing to do with them.
+        self._closing: set[OutgoingLink] = set()
         self._pending: list[bytes] = []
         self._pending_bytes = 0
         # Plain attributes, because every message reads them.
@@ -77,11 +84,12 @@ class Publication(Shared[Publishing]):
         self.has_subscribers = False
         self.known_subscribers = 0
         """How many subscribers the master named when this was last registered."""
+        self._refusal = ""  # of the last subscriber that was refused
 
     @property
     def connections(self) -> tuple[ConnectionInfo, ...]:
         """The connections of its subscribers."""
-        return tuple(link.info for link in self._links)
+        return tuple(link.info for link in self._open + self._slow)
 
     @property
     def subscriber_count(self) -> int:
@@ -94,6 +102,13 @@ class Publication(Shared[Publishing]):
         return self._bytes_of_closed + sum(each.stats.bytes for each in self.roles)
 
     @property
+    def obstacle(self) -> str:
+        """What keeps subscribers from being connected, as far as it is known here."""
+        if self._refusal or self.registration.is_established:
+            return self._refusal
+        return f"the master does not know of publisher {self.name} yet"
+
+    @property
     def is_drained(self) -> bool:
         """Whether the kernel has taken everything that was published."""
         self._flush()
@@ -101,7 +116,7 @@ class Publication(Shared[Publishing]):
 
     @property
     def _links(self) -> tuple[OutgoingLink, ...]:
-        return self._open + self._slow
+        return self._open + self._slow + tuple(self._closing)
 
     def check_type(self, message_class: type[Message]) -> None:
         """Raise :class:`~aioros1.Md5MismatchError` for a type other than the published one."""
@@ -164,6 +179,15 @@ class Publication(Shared[Publishing]):
         if self._waiting(link, publisher) < publisher.options.queue_size:
             link.queue.append((frame, publisher))
             return
+        if not publisher.stats.dropped:
+            self._first_drop(
+                publisher,
+                "publisher %s: a message for %s was dropped, because %s wait for it already "
+                "(queue_size, with overflow=%s). `await send()` waits for room. Further drops are "
+                "only counted, in `dropped`",
+                *(self.name, link.info.peer, publisher.options.queue_size),
+                repr(publisher.options.overflow),
+            )
         publisher.stats.dropped += 1
         link.info.stats.dropped += 1
         if publisher.options.overflow == "drop_oldest":
@@ -172,6 +196,10 @@ class Publication(Shared[Publishing]):
                     del link.queue[index]
                     break
             link.queue.append((frame, publisher))
+
+    def _first_drop(self, publisher: Publishing, text: str, *args: object) -> None:
+        if publisher._warns:
+            self._context.log.warning(text, *args)
 
     def _flush(self) -> None:
         pending = self._pending
@@ -200,10 +228,14 @@ class Publication(Shared[Publishing]):
         headers: dict[str, str] = {}
         for publisher in self.roles:
             headers.update(publisher.options.headers or {})
-        answer = server.accept_topic(context.name, offer, headers)
+        try:
+            answer = server.accept_topic(context.name, offer, headers)
+        except HandshakeError as error:
+            self._refusal = f"{server.peer} was refused: {printable(error.text)}"
+            raise
         theirs = server.header.get("type", "*")
         if theirs not in ("*", offer.type):
-            context.log.warning(
+            context.log.complain(
                 "%s subscribes to %s as %s, but it is %s; accepted, as their md5sums are the same",
                 *(server.caller_id, offer.topic, theirs, offer.type),
             )
@@ -216,7 +248,7 @@ class Publication(Shared[Publishing]):
         if not self.roles:
             # The last publisher is closing, and the master has not told the subscriber yet.
             # Nothing is wrong, but there is nothing to send.
-            link.close()
+            self._begin_to_close(link)
         try:
             await link.wait_closed()
         finally:
@@ -237,12 +269,27 @@ class Publication(Shared[Publishing]):
         self._context.connections.add(self.kind, link, link.info)
         self.changed.wake()
 
+    def _begin_to_close(self, link: OutgoingLink) -> None:
+        """Close a connection once what waits for it has gone out; it gets nothing else."""
+        self._remove(link)
+        self._closing.add(link)
+        self._look()
+        link.close()
+
+    def _remove(self, link: OutgoingLink) -> None:
+        self._open = tuple(other for other in self._open if other is not link)
+        self._slow = tuple(other for other in self._slow if other is not link)
+
     def link_paused(self, link: OutgoingLink) -> None:
+        if link in self._closing:
+            return
         self._open = tuple(other for other in self._open if other is not link)
         self._slow += (link,)
         self._look()
 
     def link_opened(self, link: OutgoingLink) -> None:
+        if link in self._closing:
+            return
         # The common block holds messages of this iteration that the link has already sent
         # from its own queue, so the block must go out before the link rejoins.
         self._flush()
@@ -251,17 +298,29 @@ class Publication(Shared[Publishing]):
         self._look()
 
     def messages_lost(self, link: OutgoingLink) -> None:
+        lost = Counter(publisher for _, publisher in link.queue)
+        for publisher, count in lost.items():
+            # A subscriber may go while the publisher closes, and leave what waits for it.
+            if publisher.is_open and not publisher.stats.dropped:
+                self._first_drop(
+                    publisher,
+                    "publisher %s: the connection to %s has ended, and with it %s of its messages "
+                    "(queue_size=%s, overflow=%s) that waited there. Further losses are only "
+                    "counted, in `dropped`",
+                    *(self.name, link.info.peer, count, publisher.options.queue_size),
+                    repr(publisher.options.overflow),
+                )
         for _, publisher in link.queue:
             publisher.stats.dropped += 1
             link.info.stats.dropped += 1
 
     def link_closed(self, link: OutgoingLink) -> None:
-        self._open = tuple(other for other in self._open if other is not link)
-        self._slow = tuple(other for other in self._slow if other is not link)
+        self._remove(link)
+        self._closing.discard(link)
         self._look()
         if link.stalled:
-            self._context.log.warning(
-                "publisher %s: %s was cut off, because %s",
+            self._context.log.complain(
+                "publisher %s: %s was cut off, because %s; what waited for it is lost",
                 *(self.name, link.info.peer, link.failure),
             )
         self._context.connections.remove(link, link.failure)
@@ -286,20 +345,27 @@ class Publication(Shared[Publishing]):
         """Close all connections once everything published has gone out; cut off the rest.
 
         This happens before the master knows: some subscribers close the connection as soon
-        as it tells them.
+        as it tells them. Connections that are made meanwhile, as a publisher may be opened
+        again, are none of them.
         """
         self._flush()
         links = self._links
         for link in links:
-            link.close()
+            self._begin_to_close(link)
         try:
             async with asyncio.timeout(self._context.timeouts.close):
                 for link in links:
                     await link.wait_closed()
         except TimeoutError:
-            pass
+            for link in self._slow:
+                self._context.log.warning(
+                    "publisher %s: closed, and %s messages that waited for %s are lost: it did not "
+                    "take them within %s s",
+                    *(self.name, len(link.queue), link.info.peer, self._context.timeouts.close),
+                )
         finally:
-            self.abort()
+            for link in links:
+                link.abort()
 
     # at the master
 

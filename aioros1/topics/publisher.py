@@ -4,27 +4,27 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 from weakref import WeakSet
 
 from aioros1._public import public
 from aioros1.clock.timer import Timer
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
+from aioros1.core.hints import Hint
 from aioros1.core.role import Role
-from aioros1.errors import ClosedError
+from aioros1.errors import ClosedError, SerializationError
+from aioros1.hints import check_takes
 from aioros1.idl import Message
 from aioros1.idl.codec import codec_of
+from aioros1.idl.genpy_types import GenpyMessage
 from aioros1.idl.message_from import message_from
 from aioros1.net.topic_links import JOIN, Frame
+from aioros1.time import Duration, Time
 from aioros1.topics.options import PublisherOptions
+from aioros1.topics.publication import Publication
 from aioros1.waiting import deadline
 from aioros1.wire.frames import frame_parts
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl.genpy_types import GenpyMessage
-    from aioros1.time import Duration, Time
-    from aioros1.topics.publication import Publication
 
 __all__ = ["Publisher"]
 
@@ -41,6 +41,7 @@ class Publisher(Role, Generic[M]):
     """
 
     kind = "publisher"
+    _factory = "advertise"
 
     def __init__(
         self,
@@ -48,6 +49,8 @@ class Publisher(Role, Generic[M]):
         publication: Publication,
         message_class: type[M],
         options: PublisherOptions,
+        *,
+        warns: bool = True,
     ) -> None:
         super().__init__(context, publication.name)
         self.options = options
@@ -55,6 +58,7 @@ class Publisher(Role, Generic[M]):
         self.message_class = message_class
         """The class of its messages."""
         self._latched: Frame | None = None  # the message that every new subscriber gets first
+        self._warns = warns  # of the first message that is dropped
         self._publication = publication
         self._blocks = options.overflow == "block"
         self._latches = options.latch
@@ -113,10 +117,13 @@ class Publisher(Role, Generic[M]):
         coalescer = publication.coalescer
         if not coalescer.collects_here():
             coalescer.begin()
-        if msg.__class__ is self._plain_class and not fields:
-            frame = self._frame(msg)
-        else:
-            frame = self._encode(msg, fields)
+        try:
+            if msg.__class__ is self._plain_class and not fields:
+                frame = self._frame(msg)
+            else:
+                frame = self._encode(msg, fields)
+        except SerializationError as error:
+            raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
         if self._blocks and publication.is_congested:
             self._require_room()
         if self._latches:
@@ -148,10 +155,11 @@ class Publisher(Role, Generic[M]):
         timeout: float | None = None,
         **fields: Any,
     ) -> None:
-        """Publish as soon as every connected subscriber has room in its queue.
+        """Publish as soon as the queue for each connected subscriber has room.
 
-        This drops nothing, whatever ``overflow`` says. While there is room it publishes at
-        once, but lets other tasks run first from time to time.
+        This drops nothing from these queues, whatever ``overflow`` says. A subscriber has a
+        queue of its own, which drops unless its ``overflow`` is ``"block"``. While there is
+        room this publishes at once, but lets other tasks run first from time to time.
 
         Raises as :meth:`publish`, and :class:`TimeoutError` after ``timeout`` seconds. After
         a timeout or a cancellation the message was not published.
@@ -170,10 +178,13 @@ class Publisher(Role, Generic[M]):
             )
         if not coalescer.collects_here():
             coalescer.begin()
-        if msg.__class__ is self._plain_class and not fields:
-            frame = self._frame(msg)
-        else:
-            frame = self._encode(msg, fields)
+        try:
+            if msg.__class__ is self._plain_class and not fields:
+                frame = self._frame(msg)
+            else:
+                frame = self._encode(msg, fields)
+        except SerializationError as error:
+            raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
         if self._latches:
             self._latched = frame
         publication.send(frame, self)
@@ -201,7 +212,12 @@ class Publisher(Role, Generic[M]):
         self._check_open()
         if not callable(msg):
             # Raise here, where the caller sees it, and not later in the timer.
-            self._frame(message_from(self.message_class, msg, fields, "msg"))
+            try:
+                self._frame(message_from(self.message_class, msg, fields, "msg"))
+            except SerializationError as error:
+                raise error.locate(self.type, f"on {self.name}")  # noqa: B904 - the same error
+        else:
+            check_takes(msg, f"publisher {self.name}: the function that makes messages", "the time")
 
         async def publish(now: Time) -> None:
             message: Any = msg
@@ -220,7 +236,7 @@ class Publisher(Role, Generic[M]):
                 pass  # the publisher was closed while this waited
 
         context = self._context
-        timer = Timer(context.clock, context.spawn, context.user_error, period, publish)
+        timer = Timer(context.clock, context.spawn_user, context.user_error, period, publish)
         self._timers.add(timer)
         return timer
 
@@ -238,17 +254,22 @@ class Publisher(Role, Generic[M]):
     async def wait_for_subscribers(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` subscribers are connected.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError` after ``timeout`` seconds, whose text says what is in the
+        way, and :class:`~aioros1.ClosedError`.
         """
         self._check_open()
-        await self._wait_until(
-            lambda: self.subscriber_count >= n, timeout, f"{n} subscribers did not connect"
-        )
+        publication = self._publication
+        what = f"{n} subscribers did not connect"
+        hint = Hint(self._context, "subscribers", self.name, lambda: publication.obstacle, timeout)
+        with hint:
+            await self._wait_until(lambda: self.subscriber_count >= n, timeout, what, hint)
 
-    async def _wait_until(self, predicate: Any, timeout: float | None, what: str) -> None:
+    async def _wait_until(
+        self, predicate: Any, timeout: float | None, what: str, why: object = ""
+    ) -> None:
         waiters = self._publication.changed
-        async with deadline(timeout, f"publisher {self.name}: {what}"):
+        async with deadline(timeout, f"publisher {self.name}: {what}") as limit:
+            limit.why = why
             while not predicate():
                 await waiters.wait()
                 self._check_open()

@@ -7,24 +7,23 @@ import functools
 import inspect
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
+from dataclasses import dataclass, field
+from typing import Any, Generic, Self, TypeVar
 
 from aioros1._public import public
+from aioros1.connection import ConnectionInfo
+from aioros1.core.context import Context
+from aioros1.core.hints import Hint
 from aioros1.core.role import Role
 from aioros1.errors import DeserializationError
+from aioros1.idl import Message
 from aioros1.idl.codec import codec_of
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.time import Time
 from aioros1.topics.decoding import Decoder, decoder_for
 from aioros1.topics.options import SubscriberOptions
+from aioros1.topics.subscription import Subscription
 from aioros1.waiting import Waiters, deadline
-
-if TYPE_CHECKING:
-    from aioros1.connection import ConnectionInfo
-    from aioros1.core.context import Context
-    from aioros1.idl import Message
-    from aioros1.topics.subscription import Subscription
 
 __all__ = ["Callback", "MessageEvent", "Subscriber"]
 
@@ -41,11 +40,11 @@ class MessageEvent(Generic[M]):
 
     message: M
     """The message itself."""
-    header: Mapping[str, str]
+    header: Mapping[str, str] = field(repr=False)
     """The connection header of the publisher; ``header["callerid"]`` is its name."""
     received: Time
     """When the message was read from the socket, by the node's clock."""
-    raw: bytes
+    raw: bytes = field(repr=False)
     """The serialised message."""
 
 
@@ -66,6 +65,7 @@ class Subscriber(Role, Generic[M]):
     """
 
     kind = "subscriber"
+    _factory = "subscribe"
 
     def __init__(
         self,
@@ -74,6 +74,8 @@ class Subscriber(Role, Generic[M]):
         message_class: type[Message] | None,
         callback: Callback | None,
         options: SubscriberOptions,
+        *,
+        warns: bool = True,
     ) -> None:
         super().__init__(context, subscription.name)
         self.options = options
@@ -82,6 +84,7 @@ class Subscriber(Role, Generic[M]):
         """The class of its messages; None for a subscriber to any type."""
         self.callback = callback
         """The callback for each message; None if you take the messages yourself."""
+        self._warns = warns  # of the first message that is dropped
         self._subscription = subscription
         self._md5sum = "*" if message_class is None else message_class._md5sum
         self._decode: Decoder = decoder_for(
@@ -104,7 +107,8 @@ class Subscriber(Role, Generic[M]):
     def _begin(self) -> None:
         """Start the task for a coroutine callback, once the subscriber is open."""
         if self._awaits:
-            self._context.spawn(self._take_all, name=f"callback of subscriber {self.name}")
+            name = f"callback of subscriber {self.name}"
+            self._context.spawn_user(self._take_all, name=name, until="closing")
 
     # what it is
 
@@ -165,14 +169,18 @@ class Subscriber(Role, Generic[M]):
     async def wait_for_publishers(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` publishers are connected.
 
-        Raises :class:`TimeoutError` after ``timeout`` seconds, and
-        :class:`~aioros1.ClosedError`.
+        Raises :class:`TimeoutError` after ``timeout`` seconds, whose text says what is in the
+        way, and :class:`~aioros1.ClosedError`.
         """
         self._check_open()
-        async with deadline(timeout, f"subscriber {self.name}: {n} publishers did not connect"):
-            while self.publisher_count < n:
-                await self._subscription.changed.wait()
-                self._check_open()
+        subscription = self._subscription
+        what = f"subscriber {self.name}: {n} publishers did not connect"
+        obstacle = subscription.obstacle.__str__
+        async with deadline(timeout, what) as limit:
+            with Hint(self._context, "publishers", self.name, obstacle, timeout) as limit.why:
+                while self.publisher_count < n:
+                    await subscription.changed.wait()
+                    self._check_open()
 
     async def wait_for_messages(self, n: int = 1, *, timeout: float | None = None) -> None:
         """Wait until ``n`` messages are in the queue, without taking any.
@@ -248,7 +256,8 @@ class Subscriber(Role, Generic[M]):
         :class:`~aioros1.ClosedError`. Cancelling it loses no message.
         """
         if timeout is not None:
-            async with deadline(timeout, f"subscriber {self.name}: no message came"):
+            async with deadline(timeout, f"subscriber {self.name}: no message came") as limit:
+                limit.why = self._subscription.obstacle
                 return await self.get()
         if self.callback is not None:
             self._check_queued()
@@ -355,6 +364,8 @@ class Subscriber(Role, Generic[M]):
         if len(frames) <= room and not self._backlog:
             queue.extend(frames)
         elif self.options.overflow == "drop_oldest":
+            if not stats.dropped:
+                self._first_drop(len(frames) - room)
             stats.dropped += len(frames) - room
             if len(frames) >= size:
                 queue.clear()
@@ -364,6 +375,8 @@ class Subscriber(Role, Generic[M]):
                     queue.popleft()
                 queue.extend(frames)
         elif self.options.overflow == "drop_newest":
+            if not stats.dropped:
+                self._first_drop(len(frames) - room)
             stats.dropped += len(frames) - room
             queue.extend(frames[:room])
         else:
@@ -373,6 +386,17 @@ class Subscriber(Role, Generic[M]):
         self._arrived.wake()
         for function in self._on_arrival:
             function()
+
+    def _first_drop(self, count: int) -> None:
+        if self._warns:
+            self._context.log.warning(
+                "subscriber %s: %s dropped, because they are not taken as fast as they come and "
+                "the queue is full (queue_size=%s, overflow=%s). A larger queue_size helps with "
+                'bursts, overflow="block" makes the publishers wait. Further drops are only '
+                "counted, in `dropped`",
+                *(self.name, "a message was" if count == 1 else f"{count} messages were"),
+                *(self.options.queue_size, repr(self.options.overflow)),
+            )
 
     def _refill(self) -> None:
         """Move the backlog into the queue, and resume connections that have none left."""
@@ -412,7 +436,10 @@ class Subscriber(Role, Generic[M]):
     async def _take_all(self) -> None:
         """Await a coroutine function for each message."""
         callback: Any = self.callback
-        while (item := await self._next_item()) is not None:
+        task = asyncio.current_task()
+        assert task is not None
+        # A callback may have caught its cancellation.
+        while not task.cancelling() and (item := await self._next_item()) is not None:
             try:
                 message = self._decode(item)
             except DeserializationError as error:

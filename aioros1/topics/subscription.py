@@ -19,12 +19,14 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
 from aioros1.errors import ClosedError, HandshakeError, Md5MismatchError, PeerError
+from aioros1.log.library_log import ROSOUT
 from aioros1.net.backoff import Backoff
 from aioros1.net.http_client import MAX_URI
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
-from aioros1.waiting import Waiters
+from aioros1.quoting import printable
+from aioros1.waiting import Obstacle, Waiters
 from aioros1.wire.handshake import TopicClient, TopicOffer
 from aioros1.xmlrpc.node_proxy import NodeProxy
 
@@ -81,6 +83,8 @@ class Subscription(Shared[Subscribing]):
         """Woken when a connection opens or closes."""
         self.on_received: OnReceived | None = None
         """Called with everything received, before the subscribers get it."""
+        self.obstacle = Obstacle(self._in_the_way)
+        """What keeps publishers from being connected; empty if all are."""
         self._local = local
         self._followers: dict[str, _Follower] = {}
         self._waiting: deque[str] = deque()  # publishers that are not followed yet
@@ -102,6 +106,19 @@ class Subscription(Shared[Subscribing]):
     def publisher_count(self) -> int:
         """How many publishers are connected."""
         return len(self._links)
+
+    def _in_the_way(self) -> str:
+        if complaints := [each.complaint for each in self._followers.values() if each.complaint]:
+            more = f" (and {len(complaints) - 1} more)" if len(complaints) > 1 else ""
+            return f"{complaints[0]}{more}"
+        connecting = len(self._followers) - len(self._links)
+        if connecting > 0:
+            return f"publishers that were announced and are being connected: {connecting}"
+        if self._links:
+            return ""
+        if not self.registration.is_established:
+            return f"the master does not know of subscriber {self.name} yet"
+        return "no publisher was announced"
 
     @property
     def has_header(self) -> bool:
@@ -158,9 +175,8 @@ class Subscription(Shared[Subscribing]):
             uri = self._waiting.popleft()
             follower = self._followers[uri] = _Follower(self, context, self._local, uri)
             try:
-                follower.task = context.spawn(
-                    follower.run, name=f"{context.name} follows {self.name} of {uri}"
-                )
+                what = f"{context.name} follows {self.name} of {printable(uri)}"
+                follower.task = context.spawn(follower.run, name=what)
             except ClosedError:  # the node has ended meanwhile
                 self._waiting.clear()
                 self.follower_ended(uri)
@@ -262,7 +278,8 @@ class _Follower:
         self._leaving = False
         self._was_forgotten = False
         self._tries_local = True
-        self._complaint = ""
+        self.complaint = ""
+        """What went wrong last; empty if nothing has, or if a connection is open."""
 
     def stay(self) -> None:
         """Note that the master lists the publisher, perhaps again, and stop waiting."""
@@ -302,8 +319,8 @@ class _Follower:
                 except (HandshakeError, PeerError, OSError, TimeoutError) as error:
                     self._complain(str(error))
                 except Exception as error:  # a fault of ours must not cost the publisher
-                    if repr(error) != self._complaint:
-                        self._complaint = repr(error)
+                    if repr(error) != self.complaint:
+                        self.complaint = repr(error)
                         what = f"subscriber {self._subscription.name}: connecting to {self._uri}"
                         self._context.report(error, what)
                 if not self._leaving:
@@ -319,6 +336,7 @@ class _Follower:
             link = await self._connect()
         loop = asyncio.get_running_loop()
         begin = loop.time()
+        self.complaint = ""
         try:
             await self._until_closed(link)
         finally:
@@ -327,8 +345,6 @@ class _Follower:
             lasted = loop.time() - begin > backoff.longest
             if link.info.stats.messages or lasted:
                 backoff.reset()
-            if lasted:
-                self._complaint = ""
             link.abort()
             self._link = None
             subscription.link_closed(link)
@@ -345,7 +361,11 @@ class _Follower:
                 return await self._shake_hands(await connect(host, port, context.timeouts))
         if not offers:
             topic = self._subscription.name
-            raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
+            raise PeerError(
+                -1,
+                f"requestTopic {topic} at {printable(self._uri)}: cannot use "
+                f"{printable(repr(answer), 200)}",
+            )
         try:
             return await self._shake_hands(await local.connect(answer))
         except (OSError, TimeoutError) as error:
@@ -423,9 +443,11 @@ class _Follower:
         return True
 
     def _complain(self, text: str) -> None:
-        """Log a problem once, until it changes or all has gone well for a while."""
-        if text != self._complaint:
-            self._complaint = text
-            self._context.log.warning(
-                "subscriber %s: publisher at %s: %s", self._subscription.name, self._uri, text
-            )
+        """Log a problem, or count it if it was logged a short while ago."""
+        self.complaint = f"publisher at {printable(self._uri)}: {printable(text)}"
+        log, topic = self._context.log, self._subscription.name
+        what = "subscriber %s: publisher at %s: %s"
+        if topic == ROSOUT:
+            log.debug(what, topic, self._uri, text)
+        else:
+            log.complain(what, topic, self._uri, text)

@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from aioros1.core.context import Context
+from aioros1.core.hints import Hint
 from aioros1.errors import HandshakeError
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream
+from aioros1.options import WithoutMaster
+from aioros1.quoting import printable
 from aioros1.topics.options import PublisherOptions, SubscriberOptions
 from aioros1.topics.publication import Publication
 from aioros1.topics.publisher import Publisher
@@ -34,8 +37,16 @@ class Topics:
         self._local = local
         self._on_received: OnReceived | None = None
 
-    async def advertise(self, topic: str, type: Any, options: PublisherOptions) -> Publisher[Any]:
-        """See :meth:`aioros1.Node.advertise`."""
+    async def advertise(
+        self,
+        topic: str,
+        type: Any,
+        options: PublisherOptions,
+        without_master: WithoutMaster = "raise",
+        *,
+        warns: bool = True,
+    ) -> Publisher[Any]:
+        """See :meth:`aioros1.Node.advertise`. ``warns`` of the first message that is dropped."""
         context = self._context
         context.check_open()
         topic = context.resolve_name(topic)
@@ -46,14 +57,23 @@ class Topics:
         # A publication whose publishers are closing can be reused, but not for another type.
         if publication is None or publication.message_class._md5sum != message_class._md5sum:
             publication = Publication(context, topic, self.publications, message_class)
-        publisher: Publisher[Any] = Publisher(context, publication, message_class, options)
-        await publication.acquire(publisher)
+        publisher: Publisher[Any] = Publisher(
+            context, publication, message_class, options, warns=warns
+        )
+        await publication.acquire(publisher, without_master)
         return await context.admit(publisher, publisher._abort)
 
     async def subscribe(
-        self, topic: str, type: Any, callback: Callback | None, options: SubscriberOptions
+        self,
+        topic: str,
+        type: Any,
+        callback: Callback | None,
+        options: SubscriberOptions,
+        without_master: WithoutMaster = "raise",
+        *,
+        warns: bool = True,
     ) -> Subscriber[Any]:
-        """See :meth:`aioros1.Node.subscribe`."""
+        """See :meth:`aioros1.Node.subscribe`. ``warns`` of the first message that is dropped."""
         context = self._context
         context.check_open()
         topic = context.resolve_name(topic)
@@ -66,21 +86,26 @@ class Topics:
         if message_class is not None:
             subscription.check_type(message_class)
         subscriber: Subscriber[Any] = Subscriber(
-            context, subscription, message_class, callback, options
+            context, subscription, message_class, callback, options, warns=warns
         )
-        await subscription.acquire(subscriber)
+        await subscription.acquire(subscriber, without_master)
         await context.admit(subscriber, subscriber._abort)
         subscriber._begin()
         return subscriber
 
     async def wait_for_message(self, topic: str, type: Any, timeout: float | None) -> Any:
         """See :meth:`aioros1.Node.wait_for_message`."""
+        context = self._context
         options = SubscriberOptions(queue_size=1, overflow="drop_newest")
-        async with (
-            deadline(timeout, f"no message on {self._context.resolve_name(topic)}"),
-            await self.subscribe(topic, type, None, options) as subscriber,
-        ):
-            return await subscriber.get()
+        name = context.resolve_name(topic)
+        async with deadline(timeout, f"no message on {name}") as limit:
+            limit.why = context.contact.obstacle
+            async with await self.subscribe(
+                topic, type, None, options, context.contact.policy, warns=False
+            ) as subscriber:
+                obstacle = subscriber._subscription.obstacle
+                with Hint(context, "publishers", name, obstacle.__str__, timeout) as limit.why:
+                    return await subscriber.get()
 
     async def serve(self, stream: Stream, server: Server) -> None:
         """Serve a subscriber that has connected; ``server`` holds its header.
@@ -90,7 +115,8 @@ class Topics:
         publication = self.published(server.topic or "")
         if publication is None:
             name = self._context.name
-            raise HandshakeError(name, f"{name} does not publish {server.topic}")
+            topic = printable(server.topic)
+            raise HandshakeError(server.peer, f"{name} does not publish {topic}")
         await publication.serve(stream, server)
 
     def watch(self, on_received: OnReceived) -> None:

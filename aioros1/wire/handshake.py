@@ -20,6 +20,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from aioros1.errors import HandshakeError
+from aioros1.quoting import printable
 from aioros1.wire.header import HeaderError, HeaderParser, encode_header
 
 __all__ = ["Server", "ServiceClient", "ServiceOffer", "TopicClient", "TopicOffer"]
@@ -84,7 +85,7 @@ class _Side(ABC):
         try:
             return self._parser.missing()
         except HeaderError as error:
-            raise HandshakeError(self.peer, str(error)) from error
+            raise HandshakeError(self.peer, str(error)) from None
 
     def receive_data(self, data: bytes) -> bool:
         """Take bytes, and return True once the header of the other side is complete.
@@ -97,7 +98,7 @@ class _Side(ABC):
         try:
             header = self._parser.feed(data)
         except HeaderError as error:
-            raise HandshakeError(self.peer, f"bad connection header: {error}") from error
+            raise HandshakeError(self.peer, f"bad connection header: {error}") from None
         if header is None:
             return False
         for name in _NAMES:
@@ -130,7 +131,8 @@ class _Client(_Side):
         theirs = self.header.get("md5sum")
         if theirs is not None and ours != theirs and "*" not in (ours, theirs):
             raise self._fail(
-                f"{what} is {self.header.get('type', '?')} with md5sum {theirs} there, "
+                f"{what} is {printable(self.header.get('type', '?'))} with md5sum "
+                f"{printable(theirs)} there, "
                 f"and has md5sum {ours} here"
             )
 
@@ -175,7 +177,7 @@ class TopicClient(_Client):
             raise self._fail(header["error"])
         for name in ("md5sum", "type"):
             if name not in header:
-                raise self._fail(f"its header has no {name}; it has {sorted(header)}")
+                raise self._fail(f"its header has no {name}; it has {printable(sorted(header))}")
         self._check_md5sum(self.wanted.md5sum, f"topic {self.wanted.topic}")
 
     @property
@@ -258,7 +260,7 @@ class Server(_Side):
 
     def _check(self, header: dict[str, str]) -> None:
         if "callerid" in header:
-            self.peer = f"{header['callerid']} at {self.peer}"
+            self.peer = f"{printable(self.caller_id)} at {self.peer}"
         for name in ("callerid", "md5sum"):
             if name not in header:
                 raise self._fail(f"the connection header has no {name}")
@@ -267,7 +269,7 @@ class Server(_Side):
 
     @property
     def caller_id(self) -> str:
-        """The name of the node that connects."""
+        """The name of the node that connects, which may be any text."""
         return self.header.get("callerid", "")
 
     @property
@@ -339,6 +341,7 @@ class Server(_Side):
         theirs = self.header["md5sum"]
         if theirs != md5sum and "*" not in (theirs, md5sum):
             raise self._fail(
-                f"client {self.caller_id} wants {what} as {self.header.get('type', '?')} with "
-                f"md5sum {theirs}, but it is {type} with md5sum {md5sum} here"
+                f"client {printable(self.caller_id)} wants {what} as "
+                f"{printable(self.header.get('type', '?'))} with "
+                f"md5sum {printable(theirs)}, but it is {type} with md5sum {md5sum} here"
             )

@@ -50,6 +50,7 @@ class AnswerReader:
         "has_begun",
         "keeps_alive",
         "reason",
+        "server",
         "status",
     )
 
@@ -65,6 +66,8 @@ class AnswerReader:
         """The status code; 0 before the head is complete."""
         self.reason = ""
         """The text behind the status code."""
+        self.server = b""
+        """The program that answers, if it says so."""
         self.body = b""
         """The body, once the answer is complete."""
         self.keeps_alive = False
@@ -143,6 +146,8 @@ class AnswerReader:
                 if coding not in (b"chunked", b"identity"):
                     raise _not_http(line)
                 chunked = coding == b"chunked"
+            elif name == b"server":
+                self.server = value
             elif name == b"connection":
                 options += (option.strip() for option in value.lower().split(b","))
         self.keeps_alive = b"close" not in options and (keeps_alive or b"keep-alive" in options)

@@ -47,5 +47,8 @@ def frame_length(prefix: bytes | bytearray, max_bytes: int) -> int:
 
 def encode_failure(text: str) -> bytes:
     """Make the answer that carries an error instead of a response."""
-    data = text.encode("utf-8", "surrogateescape")
+    try:
+        data = text.encode("utf-8", "surrogateescape")
+    except UnicodeEncodeError:  # surrogates that stand for no byte
+        data = text.encode("utf-8", "backslashreplace")
     return FAILURE + _U32.pack(len(data)) + data

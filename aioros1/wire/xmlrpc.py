@@ -7,7 +7,8 @@ The value types, and how each is written:
 ``int``           ``<int>``, 32 bits signed: XML-RPC knows no more
 ``float``         ``<double>`` with all its digits, and ``nan``, ``inf``, ``-inf``
                   as the programs of ROS 1 write them
-``str``           ``<string>``; what XML cannot carry is refused
+``str``           ``<string>``; what XML cannot carry is refused, and carriage
+                  returns are written as they are
 ``bytes``         ``<base64>``
 ``datetime``      ``<dateTime.iso8601>``: naive, whole seconds
 ``list, tuple``   ``<array>``, always read as a list
@@ -26,7 +27,7 @@ from __future__ import annotations
 
 import re
 from binascii import b2a_base64
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from datetime import datetime
 from typing import Any, TypeVar
 
@@ -89,7 +90,7 @@ _CHUNK = 48 << 10
 """Characters or bytes converted in one step; a multiple of three, for base64."""
 
 # Characters that cannot be written as they are. Most strings have none.
-_SPECIAL = re.compile("[\x00-\x08\x0b-\x1f&<>\ud800-\udfff\ufffe\uffff]")
+_SPECIAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f&<>\ud800-\udfff\ufffe\uffff]")
 _ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -271,7 +272,7 @@ def _encode_dict(value: dict[str, Any], out: list[str], depth: int) -> Iterator[
                 yield from _convert_long(key, _escape, out)
                 out.append("</name>")
             else:
-                out.append(f"<member><name>{_escape(str.__str__(key))}</name>")
+                out.append(f"<member><name>{_escape_name(str.__str__(key))}</name>")
             more = _encode(item, out, depth - 1)
             if more is not None:
                 yield from more
@@ -302,10 +303,14 @@ def _escape(text: str) -> str:
         raise _UnencodableError(
             ValueError, f"XML cannot carry the character {bad[0]!r}: {brief(text)}"
         )
-    # XML parsers turn a bare carriage return into a line feed, but not a reference to one.
-    return (
-        text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
-    )
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def _escape_name(name: str) -> str:
+    """roscpp decodes no names, so they are written as they are as far as XML allows it."""
+    if _SPECIAL.search(name) is None:
+        return name
+    return _escape(name).replace("&gt;", ">").replace("]]>", "]]&gt;")
 
 
 _ENCODERS: dict[type, _Encoder] = {
@@ -342,7 +347,7 @@ def decode_call(
 
 
 def decoding_call(
-    chunks: Iterable[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
+    chunks: Sequence[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
 ) -> Generator[None, None, tuple[str, tuple[Any, ...]]]:
     """Read a document that came in ``chunks`` as :func:`decode_call` does, in steps of
     :data:`PIECE` bytes, and return the same."""
@@ -368,7 +373,7 @@ def decode_response(
 
 
 def decoding_response(
-    chunks: Iterable[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
+    chunks: Sequence[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
 ) -> Generator[None, None, Any]:
     """Read a document that came in ``chunks`` as :func:`decode_response` does, in steps of
     :data:`PIECE` bytes, and return the same."""

@@ -6,10 +6,11 @@ the number of values is bounded.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterator, Sequence
 from typing import Any, NoReturn
 from xml.parsers import expat
 
+from aioros1.wire.carriage_returns import CarriageReturns
 from aioros1.wire.xmlrpc_scalars import BLANK, SCALARS, XmlRpcError, brief, to_bytes_so_far
 
 __all__ = ["PIECE", "UNSET", "Document", "reading_document"]
@@ -21,7 +22,7 @@ _PENDING: Any = object()
 
 
 def reading_document(
-    chunks: Iterable[bytes], root: str, max_depth: int, max_values: int
+    chunks: Sequence[bytes], root: str, max_depth: int, max_values: int
 ) -> Generator[None, None, Document]:
     """Read what is in ``<root>``, in steps of :data:`PIECE` bytes, and return it. Raises
     :class:`XmlRpcError`."""
@@ -52,7 +53,10 @@ PIECE = 16 << 10
 """Bytes read in one step. If they are nothing but values, that takes some 15 ms."""
 
 
-def _feed(parser: expat.XMLParserType, chunks: Iterable[bytes]) -> Iterator[None]:
+def _feed(parser: expat.XMLParserType, chunks: Sequence[bytes]) -> Iterator[None]:
+    returns = None
+    if any(b"\r" in chunk for chunk in chunks) and not any(b"\0" in chunk for chunk in chunks):
+        returns = CarriageReturns()  # not in UTF-16
     size = 0
     for chunk in chunks:
         view = memoryview(chunk)
@@ -61,7 +65,9 @@ def _feed(parser: expat.XMLParserType, chunks: Iterable[bytes]) -> Iterator[None
                 if size - parser.CurrentByteIndex > _LONGEST_TAG:
                     raise XmlRpcError(f"a tag or a comment of more than {_LONGEST_TAG} bytes")
                 yield
-            piece = view[begin : begin + PIECE]
+            piece: bytes | memoryview = view[begin : begin + PIECE]
+            if returns is not None:
+                piece = returns.keep(bytes(piece))  # up to five times as long
             parser.Parse(piece, False)
             size += len(piece)
     if not size:

@@ -16,6 +16,7 @@ from aioros1.net.http_client import HttpClient, server_at
 from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.net.turns import Turn
 from aioros1.options import Limits, Timeouts
+from aioros1.quoting import printable
 from aioros1.waiting import Deadlines
 from aioros1.wire.http import HttpError
 from aioros1.wire.xmlrpc import (
@@ -28,12 +29,28 @@ from aioros1.wire.xmlrpc import (
 )
 from aioros1.wire.xmlrpc_scalars import brief
 
-__all__ = ["SHORT_ANSWER", "XmlRpcClient", "as_it_is", "call_triple"]
+__all__ = [
+    "SHORT_ANSWER",
+    "HttpStatusError",
+    "XmlRpcClient",
+    "as_it_is",
+    "call_triple",
+    "is_answer",
+    "is_judgement",
+]
 
 SHORT_ANSWER = 64 << 10
 """Bytes of an answer that has a few words, from a node that anybody may have registered."""
 
 T = TypeVar("T")
+
+
+class HttpStatusError(XmlRpcError):
+    """A server answered with an HTTP ``status`` other than 200."""
+
+    def __init__(self, text: str, status: int) -> None:
+        super().__init__(text)
+        self.status = status
 
 
 class XmlRpcClient:
@@ -65,13 +82,16 @@ class XmlRpcClient:
         ``limits.xmlrpc_bytes``.
 
         ``timeout`` limits the whole call, in seconds; the default is ``Timeouts.xmlrpc``,
-        and ``math.inf`` means no limit. Raises
+        and ``math.inf`` means no limit. Calls without a limit do not count in the number of
+        connections to one server: each could hold one for ever. Their number is up to the
+        caller. Raises
 
         - :class:`TimeoutError` after that time,
         - :class:`ConnectionError` if the server cannot be reached, and
           :class:`ConnectionResetError` if the connection is lost before the answer,
         - :class:`.XmlRpcFault` if the server answers with a fault,
-        - :class:`.XmlRpcError` if the answer is not XML-RPC, or too large,
+        - :class:`.XmlRpcError` if the answer is not XML-RPC, or too large;
+          :class:`.HttpStatusError` if it has an HTTP status other than 200,
         - :class:`TypeError`, :class:`ValueError` or :class:`OverflowError` for parameters
           that cannot be sent (see :func:`.encode_call`), before anything is sent,
         - :class:`~aioros1.ClosedError` after :meth:`close`,
@@ -90,14 +110,18 @@ class XmlRpcClient:
             server = server_at(uri, any_path=any_path)
         except ValueError:
             raise ConnectionError(
-                f"{uri[:200]!r} is not the URI of a ROS node or master (http://host:port/)"
+                f"{printable(uri)!r} is not the URI of a ROS node or master (http://host:port/)"
             ) from None
         seconds = self._timeouts.xmlrpc if timeout is None else timeout
+        limit = None if seconds == math.inf else seconds
         try:
-            async with self._deadlines.limit(None if seconds == math.inf else seconds, "no answer"):
-                answer = await self._http.post(server, body, max_bytes=max_bytes)
+            async with self._deadlines.limit(limit, "no answer"):
+                answer = await self._http.post(
+                    server, body, counts=limit is not None, max_bytes=max_bytes
+                )
             if answer.status != 200:
-                raise XmlRpcError(f"HTTP status {answer.status} {answer.reason}")
+                what = f"HTTP status {answer.status} {answer.reason}"
+                raise HttpStatusError(what, answer.status)
             depth, values = self._limits.xmlrpc_depth, self._limits.xmlrpc_values
             if len(answer.body) <= PIECE:
                 return decode_response(answer.body, max_depth=depth, max_values=values)
@@ -105,14 +129,30 @@ class XmlRpcClient:
             return await Turn(state.turns).run(steps)
         except TimeoutError as error:
             if self._closed:
-                raise ConnectionAbortedError(f"{method} at {uri}: the client was closed") from None
-            raise TimeoutError(f"{method} at {uri}: {error}") from None
+                raise ConnectionAbortedError(
+                    f"{_place(method, uri)}: the client was closed"
+                ) from None
+            raise TimeoutError(f"{_place(method, uri)}: {error}") from None
         except ConnectionResetError as error:
-            raise ConnectionResetError(f"{method} at {uri}: {error}") from error
+            raise ConnectionResetError(f"{_place(method, uri)}: {error}") from None
         except ConnectionError as error:
-            raise ConnectionError(f"{method} at {uri}: {error}") from error
+            raise ConnectionError(f"{_place(method, uri)}: {error}") from None
+        except HttpStatusError as error:
+            what = f"{_place(method, uri)}: {printable(error)}"
+            raise HttpStatusError(what, error.status) from None
         except (HttpError, XmlRpcError) as error:
-            raise XmlRpcError(f"{method} at {uri}: {error}") from None
+            raise XmlRpcError(f"{_place(method, uri)}: {printable(error)}") from None
+
+    def losses(self, uri: str) -> int:
+        """How many kept connections to the server at ``uri`` were lost, as far as it is known.
+
+        Servers keep connections while they live, so a loss may mean that another one has taken
+        the place of this one.
+        """
+        try:
+            return self._http.losses(server_at(uri))
+        except ValueError:
+            return 0
 
     async def encode(self, method: str, *params: Any) -> bytes:
         """Make the document of a call, which :meth:`call` takes as its ``body``.
@@ -140,6 +180,17 @@ class XmlRpcClient:
         await self._http.close()
 
 
+def is_answer(error: MasterError | PeerError) -> bool:
+    """Whether whoever is at the URI answers XML-RPC, whatever it has answered."""
+    is_silent = isinstance(error, MasterUnreachable | PeerUnreachable)
+    return not is_silent and not isinstance(error.__context__, XmlRpcError)
+
+
+def is_judgement(error: MasterError | PeerError) -> bool:
+    """Whether the other side has judged the request: it refused, or raised a fault."""
+    return error.is_refusal or isinstance(error.__context__, XmlRpcFault)
+
+
 def _appending(found: list[bytes], pieces: Iterator[bytes]) -> Generator[None, None, None]:
     for piece in pieces:
         found.append(piece)
@@ -151,13 +202,18 @@ def as_it_is(value: Any) -> Any:
     return value
 
 
+def _place(method: str, uri: str) -> str:
+    """What was asked, and where; others may have chosen the address."""
+    return f"{method} at {printable(uri)}"
+
+
 async def call_triple(
     client: XmlRpcClient,
     uri: str,
     method: str,
     params: tuple[Any, ...],
     refused: type[MasterError] | type[PeerError],
-    unreachable: type[MasterUnreachable] | type[PeerUnreachable],
+    unreachable: Callable[[str, OSError], MasterError | PeerError],
     *,
     bare: bool = False,
     read: Callable[[Any], T] = as_it_is,
@@ -168,35 +224,42 @@ async def call_triple(
     """Call a method and return what ``read`` makes of the value of its answer.
 
     Raises ``refused`` for any code but 1, for a fault and for an answer that is not a
-    triple or that ``read`` cannot read; ``unreachable`` when there is no answer. With
-    ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so.
+    triple or that ``read`` cannot read, and what ``unreachable(method, error)`` makes of the
+    error when there is no answer. These errors say all that there is to say, and have no
+    causes: what a peer wrote is quoted in them. With ``bare`` an answer need not be a triple:
+    roscpp answers ``getBusStats`` so.
     """
+    place = _place(method, uri)
     try:
         answer = await client.call(
             uri, method, *params, timeout=timeout, any_path=any_path, max_bytes=max_bytes
         )
     except XmlRpcFault as fault:
-        what = f"{method} at {uri}: {fault.text}"
-        raise refused(fault.code, what, is_refusal=False) from fault
+        what = f"{place}: {printable(fault.text)}"
+        raise refused(fault.code, what, is_refusal=False) from None
     except XmlRpcError as error:
         whose = "master" if refused is MasterError else "node"
         what = f"{error}; expected the answer of a ROS {whose}"
-        raise refused(-1, what, is_refusal=False) from error
-    except (OSError, TimeoutError) as error:
-        raise unreachable(str(error)) from error
+        raise refused(-1, what, is_refusal=False) from None
+    except OSError as error:  # a TimeoutError is one
+        raise unreachable(method, error) from None
     except ClosedError as error:  # the client is closed, and with it its node
-        raise ClosedError(f"{method} at {uri}: {error}") from error
+        raise ClosedError(f"{place}: {error}") from None
     if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
         code, status, value = answer
         if code != 1:
-            raise refused(code, f"{method} at {uri}: {status}")
+            raise refused(code, f"{place}: {printable(status)}")
     elif bare:
         value = answer
     else:
-        what = f"{method} at {uri}: expected [code, status, value], got {brief(answer)}"
+        what = f"{place}: expected [code, status, value], got {_shown(answer)}"
         raise refused(-1, what, is_refusal=False)
     try:
         return read(value)
     except (TypeError, ValueError, LookupError, AttributeError) as error:
-        what = f"{method} at {uri}: cannot read {brief(value)}: {error}"
-        raise refused(-1, what, is_refusal=False) from error
+        what = f"{place}: cannot read {_shown(value)}: {printable(error)}"
+        raise refused(-1, what, is_refusal=False) from None
+
+
+def _shown(answer: Any) -> str:
+    return printable(brief(answer), 200)

@@ -5,12 +5,19 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
+from urllib.parse import urlsplit
 
 from aioros1._public import public
-from aioros1.errors import MasterError, MasterUnreachable
-from aioros1.xmlrpc.client import XmlRpcClient, as_it_is, call_triple
+from aioros1.errors import MasterError, MasterUnreachable, NodeNotFound
+from aioros1.xmlrpc.client import (
+    XmlRpcClient,
+    as_it_is,
+    call_triple,
+    is_answer,
+    is_judgement,
+)
 
-__all__ = ["MasterProxy", "SystemState", "TopicType", "topic_types"]
+__all__ = ["MasterProxy", "SystemState", "TopicType", "identify", "topic_types"]
 
 T = TypeVar("T")
 
@@ -66,20 +73,48 @@ class MasterProxy:
         ``read`` converts the value in the master's answer to what this returns.
         """
         params = (self.caller_id, *params)
-        value = await call_triple(
-            *(self._client, self.uri, method, params, MasterError, MasterUnreachable),
-            read=read,
-            timeout=self._timeout,
-            any_path=True,  # the user chose this URI
-        )
+        try:
+            value = await call_triple(
+                *(self._client, self.uri, method, params, MasterError, self._unreachable),
+                read=read,
+                timeout=self._timeout,
+                any_path=True,  # the user chose this URI
+            )
+        except MasterError as error:
+            if is_answer(error):
+                self.last_seen = time.monotonic()
+            raise
         self.last_seen = time.monotonic()
         return value
+
+    def _unreachable(self, method: str, error: OSError) -> MasterUnreachable:
+        # Only then was nothing sent; the other errors are more special ones.
+        if type(error) is not ConnectionError:
+            return MasterUnreachable(str(error))
+        advice = (
+            "no master is there: start one with `aioros1 master`, set ROS_MASTER_URI to the one "
+            'you have, or let the node wait for it with without_master="wait"'
+        )
+        parts = urlsplit(self.uri)
+        if parts.port is None:
+            named = f"http://{parts.netloc}:11311"
+            advice = f"a URI without a port means port 80, did you mean {named}? If not, {advice}"
+        return MasterUnreachable(str(error), advice=advice, was_sent=False)
 
     # look-ups
 
     async def lookup_node(self, name: str) -> str:
-        """The URI of a node's slave API."""
-        return await self.call("lookupNode", name, read=str)
+        """The URI of a node's slave API.
+
+        Raises :class:`~aioros1.NodeNotFound` if the master knows no node of that name.
+        """
+        try:
+            return await self.call("lookupNode", name, read=str)
+        except MasterError as error:
+            if not error.is_refusal:
+                raise
+            text = f"no node {name}: the master at {self.uri} knows none of that name"
+            raise NodeNotFound(error.code, text) from None
 
     async def lookup_service(self, name: str) -> str:
         """The ``rosrpc://host:port`` of a service's provider."""
@@ -106,9 +141,9 @@ class MasterProxy:
         return await self.call("getPid", read=int)
 
     async def ping(self) -> float:
-        """Seconds that one round trip to the master takes."""
+        """Seconds that one round trip to the master takes. Any answer will do."""
         start = time.perf_counter()
-        await self.get_pid()
+        await identify(self)
         return time.perf_counter() - start
 
     # registrations: roles make them; these methods are public for tools
@@ -170,6 +205,28 @@ class MasterProxy:
     async def unsubscribe_param(self, key: str, uri: str) -> int:
         """End :meth:`subscribe_param`; returns 1 if ``key`` was subscribed to, else 0."""
         return await self.call("unsubscribeParam", uri, key, read=int)
+
+
+async def identify(master: MasterProxy) -> int:
+    """The master's process id; 0 if there is a master that does not tell.
+
+    Not every master has ``getPid``, but whoever answers that it has no such method, or that
+    the request failed, is there. Raises :class:`~aioros1.MasterError` if nobody is.
+    """
+    try:
+        return await master.get_pid()
+    except MasterError as error:
+        if is_answer(error):
+            return 0
+        if isinstance(error, MasterUnreachable):
+            raise
+        # A server may answer with an HTTP error what it has no method for.
+        try:
+            await master.get_uri()
+        except MasterError as second:
+            if not is_judgement(second):
+                raise error from None
+        return 0
 
 
 def topic_types(rows: Any) -> list[TopicType]:

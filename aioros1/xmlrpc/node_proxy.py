@@ -156,7 +156,7 @@ class NodeProxy:
         """
         params = (self._caller_id, *params)
         return await call_triple(
-            *(self._client, self.uri, method, params, PeerError, PeerUnreachable),
+            *(self._client, self.uri, method, params, PeerError, _unreachable),
             bare=bare,
             read=read,
             max_bytes=max_bytes,
@@ -242,3 +242,7 @@ def _received(row: Sequence[Any]) -> SubscribeConnection:
     if len(row) == 4:  # as documented; rospy and roscpp put the number of messages second
         return SubscribeConnection(row[0], row[1], -1, row[2], bool(row[3]))
     return SubscribeConnection(row[0], row[1], row[2], row[3], bool(row[4]))
+
+
+def _unreachable(method: str, error: OSError) -> PeerUnreachable:
+    return PeerUnreachable(str(error))

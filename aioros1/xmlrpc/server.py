@@ -28,6 +28,7 @@ from aioros1.net.rate_limit import RateLimit
 from aioros1.net.turns import Turn
 from aioros1.options import Limits
 from aioros1.waiting import Mutex, Waiters
+from aioros1.wire.carriage_returns import with_references
 from aioros1.wire.xmlrpc import (
     PIECE,
     XmlRpcError,
@@ -345,7 +346,6 @@ class XmlRpcServer:
         share: Share,
         turn: Turn,
     ) -> web.StreamResponse:
-        limits = self._limits
         afters: _Afters = []
         try:
             name, params = await self._decode(body, turn)
@@ -361,7 +361,7 @@ class XmlRpcServer:
             else:
                 value = await self._call(name, params, afters, turn)
             body.clear()
-            pieces = response_pieces(value, max_depth=limits.xmlrpc_depth)
+            pieces = self._pieces(request, value)
             document = next(pieces)
             more = next(pieces, None)
             if more is None:
@@ -370,7 +370,7 @@ class XmlRpcServer:
             # Count first, then write while the peer reads: what a peer does not read takes no
             # memory. What a method returns does not change.
             length = len(document) + len(more) + await turn.run(_lengths(pieces))
-            pieces = response_pieces(value, max_depth=limits.xmlrpc_depth)
+            pieces = self._pieces(request, value)
             # Nobody else may hold the value any more.
             share.grow_to(length)
             return await self._send(request, LongDocument(length, pieces, turn), afters)
@@ -380,6 +380,11 @@ class XmlRpcServer:
             self._log.error("the result of %s cannot be sent: %s", brief(name), error)
             fault_text = f"{brief(name)}: {error}"
             return await self._send(request, encode_fault(FAULT_APPLICATION, fault_text), afters)
+
+    def _pieces(self, request: web.BaseRequest, value: Any) -> Iterator[bytes]:
+        """The answer with ``value``, in pieces."""
+        pieces = response_pieces(value, max_depth=self._limits.xmlrpc_depth)
+        return map(with_references, pieces) if _is_python(request) else pieces
 
     async def _send(
         self, request: web.BaseRequest, document: bytes | LongDocument, afters: _Afters
@@ -458,6 +463,11 @@ class XmlRpcServer:
             if turn.is_over:
                 await turn.next()
         return results
+
+
+def _is_python(request: web.BaseRequest) -> bool:
+    """Whether the client is Python's, as that of rospy and of the tools is."""
+    return request.headers.get("User-Agent", "").startswith(("Python-xmlrpc/", "xmlrpclib.py/"))
 
 
 def _cut(connection: Connection, task: asyncio.Task[Any]) -> None:

@@ -85,7 +85,6 @@ async def test_a_late_registration_leaves_no_ghost(gate, make_node, how, times):
         for _ in range(times - 1):
             with pytest.raises(aioros1.MasterUnreachable):
                 await opened(node)
-        assert gate.waiting == 1, "the next request overtook the first"
         gate.opened.set()
 
     async def it_was_taken_back():

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 import aioros1.cli
+from aioros1.cli.serve import plain_options
 from aioros1.net.hosts import bind_sockets
 from aioros1.xmlrpc.client import XmlRpcClient
 
@@ -130,3 +131,38 @@ def test_help_and_version(capsys: pytest.CaptureFixture[str]) -> None:
         with contextlib.suppress(SystemExit):
             aioros1.cli.main(words)
         assert capsys.readouterr().out.strip()
+
+
+async def test_it_does_not_import_what_only_other_commands_need() -> None:
+    """That would take as long as everything else, while programs wait for the master."""
+    code = """
+import atexit, sys
+needless = {"cyclopts", "rich"}
+atexit.register(lambda: print(sorted(needless & set(sys.modules)), flush=True))
+from aioros1.cli import main
+main()
+"""
+    words = ("core", "--port=0", "--host", "127.0.0.1", "--allow", "127.0.0.0/8")
+    async with command(*words, code=code) as process:
+        await uri_of(process)
+        process.send_signal(signal.SIGTERM)
+        output, _ = await asyncio.wait_for(process.communicate(), 40)
+        assert (process.returncode, output) == (0, b"[]\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "options"),
+    [
+        ("", {}),
+        ("--port 0 --host=h", {"port": 0, "host": "h"}),
+        ("--allow a --allow=b --bind 0", {"allow": ("a", "b"), "bind": "0"}),
+        ("--help", None),
+        ("--port", None),
+        ("--port x", None),
+        ("--port -1", None),
+        ("--host --port", None),
+        ("11311", None),
+    ],
+)
+def test_words_that_need_no_more_to_be_read(words: str, options: object) -> None:
+    assert plain_options(words.split()) == options

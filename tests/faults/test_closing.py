@@ -374,18 +374,62 @@ async def test_aborting_ends_everything_at_once(make_node):
     assert node.connections == ()
 
 
-async def test_closing_the_node_from_its_own_service_handler_ends(make_node):
-    node = await make_node(timeouts=aioros1.Timeouts(close=0.2))
+@pytest.mark.parametrize("what", ["node", "provider"])
+@pytest.mark.parametrize("how", ["itself", "in a task", "without waiting"])
+async def test_a_service_handler_closes_its_own_node_or_provider(make_node, what, how):
+    """It does not wait for itself, and its call is answered."""
+    # Long enough for the test to fail if anybody waits for that.
+    node = await make_node(timeouts=aioros1.Timeouts(close=PATIENCE * 2))
+    closing = set()
+
+    async def handler(request):
+        role = node if what == "node" else provider
+        if how == "itself":
+            await role.close()
+        elif how == "in a task":
+            await asyncio.gather(role.close(), asyncio.sleep(0))
+        else:
+            closing.add(asyncio.create_task(role.close()))
+            await asyncio.sleep(0)
+        return {"success": True}
+
+    provider = await node.advertise_service("end", SetBool, handler)
+    async with dialled(node, caller_header("/end"), flip_request(True)) as wire:
+        await wire.read_header()
+        assert (await wire.answer())[0] == 1
+        async with asyncio.timeout(PATIENCE):
+            assert await wire.is_closed()
+            await provider.close()
+            await (node.wait_closed() if what == "node" else provider.close())
+            await asyncio.gather(*closing)
+    assert not provider.is_open
+
+
+@pytest.mark.parametrize("persistent", [False, True])
+async def test_a_node_that_calls_its_own_service_to_end_gets_the_answer(make_node, persistent):
+    node = await make_node()
 
     async def handler(request):
         await node.close()
+        return {"message": "good night"}
 
     await node.advertise_service("end", SetBool, handler)
-    async with dialled(node, caller_header("/end"), flip_request(True)) as wire:
-        await wire.read_header()
-        async with asyncio.timeout(PATIENCE):
-            await node.wait_closed()
-        assert await wire.is_closed()
+    caller = await node.service_caller("end", SetBool, persistent=persistent)
+    assert (await caller.call(timeout=PATIENCE)).message == "good night"
+    await asyncio.wait_for(node.wait_closed(), PATIENCE)
+
+
+async def test_a_service_handler_can_offer_its_service_again(make_node):
+    node = await make_node()
+
+    async def handler(request):
+        await provider.close()
+        again = await node.advertise_service("flip", SetBool, lambda _: {"message": "new"})
+        return {"message": again.name}
+
+    provider = await node.advertise_service("flip", SetBool, handler)
+    assert (await node.call("flip", SetBool, timeout=PATIENCE)).message == "/flip"
+    assert (await node.call("flip", SetBool, timeout=PATIENCE)).message == "new"
 
 
 @pytest.mark.parametrize("filter_", ["always", "error"])
@@ -412,6 +456,53 @@ def test_a_node_that_was_never_closed_is_warned_of_and_freed(filter_):
     )
     assert "node /n was never closed" in result.stderr
     assert result.stdout.split() == ["closed", "False"]
+
+
+@pytest.mark.asyncio(loop_factories=["asyncio"])
+@pytest.mark.parametrize("loop", ["asyncio", "uvloop"])
+async def test_a_node_whose_loop_was_closed_is_warned_of_and_freed(master, loop):
+    """Nothing that lives as long as the process, such as a logger, keeps it."""
+    pytest.importorskip(loop)
+    script = (
+        "import asyncio, gc, logging, os, sys, weakref\n"
+        f"import aioros1, {loop}\n"
+        "def count():\n"
+        "    gc.collect()\n"
+        "    return len(os.listdir('/proc/self/fd'))\n"
+        "async def main():\n"
+        "    node = aioros1.Node('n', master_uri=sys.argv[1], host='localhost')\n"
+        "    await node.start()\n"
+        "    pub = await node.advertise('chatter', 'std_msgs/String')\n"
+        "    sub = await node.subscribe('chatter', 'std_msgs/String')\n"
+        "    await pub.wait_for_subscribers()\n"
+        "    await sub.wait_for_publishers()\n"
+        "    node.create_task(asyncio.sleep(3600))\n"
+        "    node.timer(0.001, lambda now: pub.publish(data='x'))\n"
+        "    node.on_shutdown(print)\n"
+        "    await sub.get()\n"
+        "    return node\n"
+        f"first = {loop}.new_event_loop()\n"
+        "first.run_until_complete(asyncio.sleep(0))\n"
+        "first.close()\n"
+        "before = count()\n"
+        f"loop = {loop}.new_event_loop()\n"
+        "node = loop.run_until_complete(main())\n"
+        "loop.close()\n"
+        "alive = weakref.ref(node)\n"
+        "del node, loop\n"
+        "print(count() - before, alive(), logging.getLogger('ros.n').handlers)\n"
+    )
+    result = await asyncio.to_thread(
+        subprocess.run,
+        [sys.executable, "-W", "always::ResourceWarning", "-c", script, master.uri],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert "ResourceWarning: node /n was never closed" in result.stderr
+    assert "Traceback" not in result.stderr
+    assert result.stdout == "0 None []\n"
 
 
 async def test_a_subscriber_that_comes_while_the_topic_closes_is_not_refused(make_node, caplog):

@@ -385,3 +385,61 @@ async def test_a_connection_that_was_full_before_its_first_message_gets_each_onc
         assert (pub.subscriber_count, pub.dropped) == (1, 0)
         wire.abort()
         await wire.close()
+
+
+# opened again while the last publisher of the topic is closing
+
+
+async def stalled(node, pub, wire):
+    """Fill the connection of a subscriber that reads nothing."""
+    while not pub.dropped:
+        pub.publish(data=numbered(0, 100_000))
+        await asyncio.sleep(0)
+
+
+async def test_a_publisher_opened_while_another_closes_keeps_its_subscribers(make_node):
+    """Those that have connected again must not be cut off with the one that takes nothing."""
+    node = await make_node("talker", timeouts=aioros1.Timeouts(close=0.5))
+    listener = await make_node("listener")
+    first = await node.advertise("/chatter", String)
+    options = {"queue_size": 100, "overflow": "block"}
+    async with listening(node, first) as stuck:
+        await stalled(node, first, stuck)
+        closing = asyncio.create_task(first.close())
+        await asyncio.sleep(0)
+        sub = await listener.subscribe("/chatter", String, **options)
+        second = await node.advertise("/chatter", String, **options)
+        assert second.subscriber_count == 0
+        await second.wait_for_subscribers(timeout=30)
+        (connection,) = second.connections
+        for number in range(2_000):
+            # Sending does not wait for the one that takes nothing.
+            await second.send(data=numbered(number), timeout=30)
+            if number % 20 == 0:
+                await asyncio.sleep(0.01 if not closing.done() else 0)
+        await closing
+        for number in range(2_000, 2_100):
+            await second.send(data=numbered(number), timeout=30)
+        got = [int((await sub.get(timeout=30)).data[:8]) for _ in range(2_100)]
+        assert got == [*range(2_100)]
+        assert [each.id for each in second.connections] == [connection.id]
+
+
+async def test_what_is_published_to_a_closing_connection_is_not_said_to_be_sent(make_node):
+    """A subscriber that was connected to the last publisher has to connect again first."""
+    node = await make_node("talker", timeouts=aioros1.Timeouts(close=0.5))
+    listener = await make_node("listener")
+    sub = await listener.subscribe("/chatter", String)
+    for number in range(5):
+        pub = await node.advertise("/chatter", String)
+        await pub.wait_for_subscribers(timeout=30)
+        pub.publish(data=numbered(number))
+        closing = asyncio.create_task(pub.close())
+        await asyncio.sleep(0)
+        assert int((await sub.get(timeout=30)).data[:8]) == number
+        pub = await node.advertise("/chatter", String)
+        await pub.wait_for_subscribers(timeout=30)
+        pub.publish(data=numbered(100 + number))
+        assert int((await sub.get(timeout=30)).data[:8]) == 100 + number
+        await closing
+        await pub.close()

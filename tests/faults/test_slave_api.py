@@ -253,6 +253,23 @@ async def test_shutdown_with_a_reason_that_is_not_a_string_is_refused(node, byst
     assert await bystander.is_served()
 
 
+@pytest.mark.parametrize("name", ["/other", "/talker/below", "/talk", "/"])
+async def test_a_shutdown_that_is_meant_for_another_node_is_ignored(node, bystander, ask, name):
+    """A master sends it to where that node was, and this one may have its port now."""
+    reason = f"[{name}] Reason: new node registered with same name"
+    code, text, _ = await ask(node, "shutdown", reason)
+    assert code == -1
+    assert f"this is /talker, not {name}" in text
+    assert node.is_open
+
+
+@pytest.mark.parametrize("text", ["new node registered with same name", "anything", ""])
+async def test_a_shutdown_that_names_this_node_is_obeyed(node, ask, text):
+    await ask(node, "shutdown", f"[{node.name}] Reason: {text}")
+    async with asyncio.timeout(30):
+        assert text in await node.wait_closed()
+
+
 async def test_shutdown_ends_every_role_of_the_node(node, pub, ask, master):
     async with dialled(node, subscriber_header()) as wire:
         await wire.read_header()

@@ -25,9 +25,11 @@ __all__ = [
 VALUES = (
     "_public",
     "_version",
+    "hints",
     "errors",
     "time",
     "names",
+    "quoting",
     "options",
     "connection",
     "waiting",

@@ -266,6 +266,10 @@ def _assigned(body: list[ast.stmt], owner: str) -> Iterator[tuple[str, int, bool
 # what signatures name
 
 
+TYPES = [["msg"], ["srv"], ["action"]]
+"""The packages from which users import the classes of types, which have no page each."""
+
+
 def private_in_signatures(names: dict[str, Public]) -> Iterator[str]:
     """Classes that a user is handed, or has to hand over, and cannot import."""
     promised = {id(one.value) for one in names.values()}
@@ -282,6 +286,7 @@ def private_in_signatures(names: dict[str, Public]) -> Iterator[str]:
                     if (
                         isinstance(found, type)
                         and found.__module__.partition(".")[0] == "aioros1"
+                        and found.__module__.split(".")[1:2] not in TYPES
                         and id(found) not in promised
                     ):
                         yield (

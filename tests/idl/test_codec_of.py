@@ -109,6 +109,19 @@ class TestDerivedClasses:
         assert message == scan(frame="laser")
         assert repr(message).startswith("MyScan(frame='laser', ")
 
+    @pytest.mark.parametrize("slots", [(), ("extra",), "extra"])
+    def test_slots_of_their_own_are_no_fields(self, scan: type[Any], slots: Any) -> None:
+        class MyScan(scan):  # type: ignore[misc]
+            __slots__ = slots
+
+        message = MyScan(frame="laser")
+        if slots:
+            message.extra = 5
+        assert message != scan(frame="other")
+        assert message == scan(frame="laser") == scan.from_bytes(message.to_bytes())
+        assert MyScan.from_dict(message.to_dict()) == message.replace(frame="laser") == message
+        assert repr(message).startswith("MyScan(frame='laser', ")
+
     def test_they_may_override_methods(self, scan: type[Any]) -> None:
         scan.from_bytes(scan(frame="x").to_bytes())
 

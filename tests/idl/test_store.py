@@ -414,7 +414,7 @@ class TestResolving:
         for store in (MessageStore(), default_store()):
             with pytest.raises(
                 MessageNotFoundError,
-                match=r"^no definition \(\.msg\) of std_srvs/SetBool, which has a \.srv; searched",
+                match=r"^expected the type of a message, got that of a service, std_srvs/SetBool: ",
             ):
                 store.resolve_msg("std_srvs/SetBool")
         with pytest.raises(InvalidNameError, match="'String' is not the name of a type"):

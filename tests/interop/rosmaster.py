@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 from . import debian
@@ -14,10 +16,14 @@ __all__ = ["RealMaster"]
 
 
 class RealMaster:
-    """A rosmaster without rosout, that can be ended and started again on its port."""
+    """A rosmaster without rosout, that can be ended and started again on its port.
 
-    def __init__(self, folder: Path) -> None:
+    ``within`` are the words of a program that runs it, in a session of its own.
+    """
+
+    def __init__(self, folder: Path, within: Sequence[str] = ()) -> None:
         debian.require("rosmaster")
+        self._within = within
         self.port = free_port()
         self.uri = f"http://localhost:{self.port}"
         self._folder = folder
@@ -27,7 +33,7 @@ class RealMaster:
     def start(self) -> None:
         with self._log.open("ab") as log:
             self._popen = subprocess.Popen(
-                ["rosmaster", "--core", "-p", str(self.port)],
+                [*self._within, "rosmaster", "--core", "-p", str(self.port)],
                 env=debian.environment(self.uri, self._folder / "ros_home"),
                 cwd=self._folder,
                 stdin=subprocess.DEVNULL,
@@ -45,6 +51,13 @@ class RealMaster:
                     self.stop()
                     raise AssertionError(f"no rosmaster: {self._log.read_text()}") from None
                 time.sleep(0.02)
+
+    def kill(self) -> None:
+        """End it at once, and what runs it."""
+        if self._popen is not None:
+            os.killpg(self._popen.pid, signal.SIGKILL)
+            self._popen.wait()
+            self._popen = None
 
     def stop(self) -> None:
         if self._popen is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import signal
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from .ours import take, take_until
 from .processes import Process, until
 from .rosmaster import RealMaster
-from .world import World
+from .world import World, xmlrpc_call
 
 STRING = "std_msgs/String"
 SET_BOOL = "std_srvs/SetBool"
@@ -216,6 +217,32 @@ async def test_roscpp_and_our_node_of_one_name(under_rosmaster: World) -> None:
         async with asyncio.timeout(10):
             reason = await node.wait_closed()
         assert "new node registered with same name" in str(reason)
+
+
+async def test_a_node_with_the_port_of_a_dead_one_survives_the_return_of_that(
+    under_each: World, caplog: pytest.LogCaptureFixture
+) -> None:
+    """rosmaster tells the dead one to end, at the address that it had."""
+    world = under_each
+    caplog.set_level(logging.INFO)
+    topic = world.unique("chatter")
+    async with world.node("heir") as heir, heir.advertise(topic, STRING) as pub:
+        # A registration of a node that was killed, whose port the heir got.
+        await asyncio.to_thread(
+            *(xmlrpc_call, world.uri, "registerPublisher"),
+            *("/returning", topic, STRING, heir.uri),
+        )
+        async with world.node("returning") as returning, returning.subscribe(topic) as sub:
+            await sub.wait_for_publishers(timeout=15)
+            await pub.wait_for_subscribers(timeout=15)
+            if world.kind == "rosmaster":
+                await until(
+                    lambda: "ignored a shutdown that is meant for /returning" in caplog.text,
+                    what="the shutdown came",
+                )
+            await world.wait_who("publishers", topic, {"/heir"})
+            assert heir.is_open
+            assert await world.ask("lookupNode", "/returning") == returning.uri
 
 
 def _log(world: World, name: str) -> str:

@@ -5,6 +5,13 @@ from __future__ import annotations
 import asyncio
 import os
 import re
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+import aioros1
 
 from .ours import take
 from .processes import until
@@ -81,6 +88,50 @@ async def test_kill_ends_our_node_with_its_reason(under_each: World) -> None:
         assert not node.is_open
         assert not pub.is_open
         await world.wait_no_traces("/victim")
+
+
+DRIVING = """
+import asyncio, aioros1
+
+async def main(node):
+    async with node.advertise("{topic}", "std_msgs/String", queue_size=100) as pub:
+        print("ready", flush=True)
+        try:
+            while True:
+                pub.publish(data="drive")
+                await asyncio.sleep(0.01)
+        finally:
+            pub.publish(data="stop")
+
+aioros1.run(main, "driver")
+"""
+
+
+@pytest.mark.parametrize("how", ["rosnode kill", "SIGINT", "SIGTERM"])
+async def test_a_script_stops_the_robot_whoever_ends_it(under_each: World, how: str) -> None:
+    world = under_each
+    topic = world.unique("cmd")
+    robot = await world.rospy_ready("listener", topic, STRING, "--name", "robot")
+    paths = f"{Path(aioros1.__file__).parent.parent}"
+    script = world.start(
+        sys.executable, "-c", DRIVING.format(topic=topic), env={"PYTHONPATH": paths}
+    )
+    await script.wait_text("ready")
+    await robot.wait_values("message")
+    if how == "rosnode kill":
+        assert "killed" in (await world.run("rosnode", "kill", "/driver")).stdout
+    else:
+        script.signal(getattr(signal, how))
+    result = await script.wait()
+    assert result.code == 0
+    if how == "rosnode kill":
+        assert "/driver was shut down: " in result.stderr
+        assert "user request" in result.stderr
+        assert len(result.stderr.splitlines()) == 1
+    else:
+        assert result.stderr == ""
+    await until(lambda: robot.values("message")[-1] == {"data": "stop"}, what="the robot stops")
+    await world.wait_no_traces("/driver")
 
 
 async def test_kill_all(under_ours: World) -> None:

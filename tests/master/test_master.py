@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import gc
 import os
+import random
 import re
 import socket
 import sys
@@ -17,6 +18,7 @@ import aiohttp
 import pytest
 
 from aioros1.master import Master
+from aioros1.master.process_id import process_id
 from aioros1.node import Node
 from aioros1.wire.xmlrpc import XmlRpcFault, decode_response
 from aioros1.xmlrpc.client import XmlRpcClient
@@ -121,7 +123,7 @@ async def test_nil_is_refused(ask: Any, master: Master, value: str) -> None:
 async def test_malformed_values_are_faults(ask: Any, master: Master, value: str) -> None:
     with pytest.raises(XmlRpcFault):
         await post(master, value)
-    assert (await ask("getPid", "/c"))[2] == os.getpid()
+    assert (await ask("getPid", "/c"))[2] == os.getpid()  # as it has a free port
 
 
 async def test_datetime_is_validated(ask: Any, master: Master) -> None:
@@ -441,3 +443,27 @@ async def test_several_masters_know_nothing_of_each_other() -> None:
         await client.call(one.uri, "setParam", "/c", "/k", 1)
         assert (await client.call(two.uri, "hasParam", "/c", "/k"))[2] is False
     await client.close()
+
+
+async def test_masters_at_one_port_can_be_told_apart_by_their_process_id() -> None:
+    """That is all that cROS asks for, and some masters are threads of one process."""
+    seen = []
+    client = XmlRpcClient()
+    port = 0
+    for _ in range(5):
+        async with Master("127.0.0.1", port=port, rosout=False) as master:
+            port = master.port
+            seen.append((await client.call(master.uri, "getPid", "/c"))[2])
+    await client.close()
+    assert len(set(seen)) == 5
+    assert {pid & 0x3FFFFF for pid in seen} == {os.getpid()}
+    assert all(0 < pid < 1 << 31 for pid in seen)
+
+
+async def test_masters_of_containers_can_be_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each of them is process 1."""
+    monkeypatch.setattr("os.getpid", lambda: 1)
+    begin = random.randrange(1 << 20, 1 << 30)  # whom no other test has told of
+    seen = {process_id(begin + number, is_free=False) for number in range(20)}
+    assert len(seen) > 10
+    assert process_id(1, is_free=True) == 1

@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import itertools
+import resource
 import socket
+import struct
+from collections.abc import Iterator
 from typing import Any
+
+import pytest
 
 from aioros1.master import Master
 from aioros1.master.notifier import Notifier
-from aioros1.master.registry import PublisherUpdate
+from aioros1.master.registry import PublisherUpdate, Shutdown
+from aioros1.wire.xmlrpc import decode_call, encode_response
 from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.server import XmlRpcServer
+
+from .conftest import RecordingNode, free_port
 
 
 async def test_the_old_node_is_told_to_end_and_its_subscribers_are_told(
@@ -31,6 +40,36 @@ async def test_the_old_node_is_told_to_end_and_its_subscribers_are_told(
         ("publisherUpdate", "/master", "/t", []),
     ]
     assert (await ask("lookupNode", "/c", "/dup"))[2] == new.uri
+
+
+async def test_who_comes_to_the_address_of_an_old_node_is_not_told_to_end() -> None:
+    """Not even when the old one did not answer before, so that it is told again."""
+    told: list[str] = []
+    registered: set[str] = set()
+
+    class Client:
+        async def call(self, uri: str, method: str, *params: Any) -> Any:
+            told.append(method)
+            registered.add(uri)
+            raise TimeoutError("no answer")
+
+    def is_wanted(message: Any) -> bool:
+        return not isinstance(message, Shutdown) or message.api not in registered
+
+    client: Any = Client()
+    notifier = Notifier(client, is_wanted=is_wanted, on_unwanted=lambda update: None)
+    notifier.send([Shutdown("http://a:1/", "/a", "[/a] Reason: replaced")])
+    async with asyncio.timeout(20):
+        while not told:
+            await asyncio.sleep(0)
+        # What comes next for that address waits behind it.
+        registered.add("http://b:1/")
+        notifier.send([Shutdown("http://b:1/", "/b", "[/b] Reason: replaced")])
+        notifier.send([PublisherUpdate("http://b:1/", "/t", [])])
+        while "publisherUpdate" not in told:
+            await asyncio.sleep(0.01)
+    await notifier.close()
+    assert told.count("shutdown") == 1
 
 
 async def test_subscribers_are_told_of_every_change_of_publishers(ask: Any, make_node: Any) -> None:
@@ -90,7 +129,7 @@ async def test_hundreds_of_nodes_leave_time_for_others() -> None:
             return [1, "", 0]
 
     client: Any = Client()
-    notifier = Notifier(client, is_registered=lambda api: True, on_unwanted=lambda update: None)
+    notifier = Notifier(client, is_wanted=lambda message: True, on_unwanted=lambda update: None)
     apis = [f"http://n{number}:1/" for number in range(300)]
     notifier.send(PublisherUpdate(api, "/t", []) for api in apis)
     assert told == []
@@ -297,3 +336,140 @@ async def test_notifications_are_dropped_when_the_master_ends() -> None:
     await client.close()
     await node.close(timeout=0.01)
     assert asyncio.all_tasks() == before
+
+
+# ------------------------------------------------------------------ notices that fail at first
+
+
+class Flaky:
+    """A server that does ``fail(writer)`` with the first requests, and then answers."""
+
+    def __init__(self, times: int, fail: Any) -> None:
+        self.left = times
+        self.told: list[tuple[Any, ...]] = []
+        self.came = asyncio.Event()
+        self._fail = fail
+
+    async def serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        with contextlib.suppress(ConnectionError, asyncio.IncompleteReadError):
+            while True:
+                head = await reader.readuntil(b"\r\n\r\n")
+                length = int(head.lower().split(b"content-length: ")[1].split(b"\r\n")[0])
+                body = await reader.readexactly(length)
+                if self.left:
+                    self.left -= 1
+                    self._fail(writer)
+                    continue
+                self.told.append(decode_call(body))
+                self.came.set()
+                answer = encode_response([1, "", 0])
+                writer.write(
+                    b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\n\r\n" % len(answer) + answer
+                )
+        writer.close()
+
+
+def reset(writer: asyncio.StreamWriter) -> None:
+    sock = writer.get_extra_info("socket")
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    writer.transport.abort()
+
+
+def busy(writer: asyncio.StreamWriter) -> None:
+    writer.write(b"HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\n\r\n")
+
+
+def nothing(writer: asyncio.StreamWriter) -> None:
+    writer.close()
+
+
+@pytest.mark.parametrize("kind", ["publisherUpdate", "paramUpdate"])
+@pytest.mark.parametrize("fail", [reset, busy, nothing])
+async def test_a_notice_that_fails_is_sent_again(
+    ask: Any, monkeypatch: Any, fail: Any, kind: str
+) -> None:
+    monkeypatch.setattr("aioros1.master.notifier._FIRST_PAUSE", 0.01)
+    flaky = Flaky(5, fail)
+    async with await asyncio.start_server(flaky.serve, "127.0.0.1", 0) as server:
+        uri = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}/"
+        if kind == "paramUpdate":
+            await ask("subscribeParam", "/n", uri, "/k")
+            await ask("setParam", "/c", "/k", 1)
+            await ask("setParam", "/c", "/k", 2)
+            last: Any = ("/k/", 2)
+        else:
+            await ask("registerSubscriber", "/n", "/t", "a/T", uri)
+            await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+            await ask("registerPublisher", "/q", "/t", "a/T", "http://q:1/")
+            last = ("/t", ["http://p:1/", "http://q:1/"])
+        async with asyncio.timeout(30):
+            while not flaky.told or flaky.told[-1] != (kind, ("/master", *last)):
+                flaky.came.clear()
+                await flaky.came.wait()
+
+
+async def test_a_node_that_comes_up_again_at_its_address_is_told(
+    ask: Any, make_node: Any, monkeypatch: Any
+) -> None:
+    monkeypatch.setattr("aioros1.master.notifier._LONGEST_PAUSE", 0.05)
+    port = free_port()
+    uri = f"http://127.0.0.1:{port}/"
+    await ask("registerSubscriber", "/n", "/t", "a/T", uri)
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await asyncio.sleep(0.1)
+    node = RecordingNode("/n")
+    await node.start(port)
+    try:
+        assert await node.has_been_told(1) == [
+            ("publisherUpdate", "/master", "/t", ["http://p:1/"])
+        ]
+    finally:
+        await node.close()
+
+
+async def test_a_master_without_descriptors_tells_later(
+    ask: Any, make_node: Any, monkeypatch: Any
+) -> None:
+    monkeypatch.setattr("aioros1.master.notifier._LONGEST_PAUSE", 0.05)
+    sub = await make_node("/sub")
+    await ask("registerSubscriber", "/sub", "/t", "a/T", sub.uri)
+    with no_descriptors():
+        # Over the connection that is open already.
+        await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+        await asyncio.sleep(0.1)
+        assert sub.told == []
+    assert await sub.has_been_told(1) == [("publisherUpdate", "/master", "/t", ["http://p:1/"])]
+
+
+@contextlib.contextmanager
+def no_descriptors() -> Iterator[None]:
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    with socket.socket() as spare:
+        lowest = spare.fileno()
+    try:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (lowest, limits[1]))
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+
+
+async def test_a_dead_node_is_given_up(ask: Any, monkeypatch: Any) -> None:
+    monkeypatch.setattr("aioros1.master.notifier._GIVE_UP", 0.2)
+    monkeypatch.setattr("aioros1.master.notifier._LONGEST_PAUSE", 0.05)
+    await ask("registerSubscriber", "/n", "/t", "a/T", f"http://127.0.0.1:{free_port()}/")
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await asyncio.sleep(0)
+    async with asyncio.timeout(30):
+        while any("notify http" in task.get_name() for task in asyncio.all_tasks()):
+            await asyncio.sleep(0.01)
+
+
+async def test_a_node_that_has_left_is_not_tried_any_more(ask: Any) -> None:
+    uri = f"http://127.0.0.1:{free_port()}/"
+    await ask("registerSubscriber", "/n", "/t", "a/T", uri)
+    await ask("registerSubscriber", "/n", "/other", "a/T", uri)
+    await ask("registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+    await ask("unregisterSubscriber", "/n", "/t", uri)
+    async with asyncio.timeout(30):
+        while any("notify http" in task.get_name() for task in asyncio.all_tasks()):
+            await asyncio.sleep(0.01)

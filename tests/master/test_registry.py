@@ -54,6 +54,17 @@ def test_a_new_node_of_the_same_name_takes_everything() -> None:
     assert not registry.knows_api(B)
 
 
+def test_a_node_is_not_told_to_end_at_an_address_where_another_is_now() -> None:
+    """The first was killed, and another program got its port."""
+    registry = Registry()
+    registry.register_publisher("/a", "/t", "a/T", A)
+    registry.register_publisher("/b", "/u", "a/T", A)
+    _, told = registry.register_publisher("/a", "/t", "a/T", B)
+    assert told == []
+    assert registry.lookup_node("/b")[2] == A
+    assert registry.lookup_node("/a")[2] == B
+
+
 def test_others_unregister_nothing() -> None:
     registry = Registry()
     registry.register_publisher("/p", "/t", "a/T", A)

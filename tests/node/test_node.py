@@ -10,7 +10,6 @@ import pytest
 
 import aioros1
 from aioros1.msg.std_msgs import String
-from aioros1.node.private_params import parse_value
 
 
 def test_the_constructor_does_no_io():
@@ -100,20 +99,6 @@ async def test_roles_are_remapped(make_node):
 async def test_private_parameters_of_the_command_line_are_set(make_node):
     node = await make_node("demo", argv=["_rate:=10", "_name:=bob", "_flags:=[a, 2]"])
     assert await node.get_param("~") == {"rate": 10, "name": "bob", "flags": ["a", 2]}
-
-
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [("10", 10), ("-1.5", -1.5), ("true", True), ("False", False), ("bob", "bob"), ("", "")],
-)
-def test_values_of_the_command_line_without_pyyaml(monkeypatch, text, value):
-    monkeypatch.setitem(sys.modules, "yaml", None)  # importing it fails
-    assert parse_value(text) == value
-
-
-def test_a_value_of_the_command_line_that_is_not_yaml_is_refused():
-    with pytest.raises(ValueError, match=r"expected a value in YAML, got '\[1,'"):
-        aioros1.Node("demo", argv=["_list:=[1, "])
 
 
 async def test_addresses_are_those_others_can_reach(make_node):

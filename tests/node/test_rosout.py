@@ -6,6 +6,8 @@ import asyncio
 import logging
 import os
 import signal
+import socket
+import struct
 import sys
 import threading
 from pathlib import Path
@@ -13,6 +15,8 @@ from pathlib import Path
 import pytest
 
 import aioros1
+from aioros1.xmlrpc.client import XmlRpcClient
+from aioros1.xmlrpc.master_proxy import MasterProxy
 
 LOG = "rosgraph_msgs/Log"
 ROOT = Path(__file__).parent.parent.parent
@@ -478,3 +482,48 @@ async def test_a_logger_of_somebody_else_is_refused_with_a_reason(make_node, log
         )
     expected = f"unknown logger {logger!r}, expected one of ros.worker, or one below"
     assert caught.value.text == expected
+
+
+async def test_short_lives_are_no_reason_to_warn(caplog):
+    """Whoever relays ``/rosout`` meets nodes that are not ready yet, or have just gone."""
+    async with aioros1.Master(host="localhost", port=0) as master:
+
+        async def live(number):
+            node = aioros1.Node(f"short{number}", master_uri=master.uri, host="localhost")
+            async with node:
+                if number % 2:
+                    await node.advertise("chatter", "std_msgs/String")
+
+        for number in range(10):
+            await live(number)
+        await asyncio.gather(*map(live, range(10, 20)))
+    assert [each.getMessage() for each in caplog.records if each.levelname != "INFO"] == []
+
+
+async def test_a_node_that_is_gone_from_rosout_is_no_reason_to_warn(caplog):
+    async with (
+        aioros1.Master(host="localhost", port=0, rosout=False) as master,
+        aioros1.Node("viewer", master_uri=master.uri, host="localhost", rosout=False) as viewer,
+        viewer.subscribe("/rosout", "rosgraph_msgs/Log") as records,
+    ):
+        with socket.socket() as sock:
+            sock.bind(("127.0.0.1", 0))
+            gone = f"http://127.0.0.1:{sock.getsockname()[1]}/"
+            caplog.set_level("DEBUG", logger="ros.viewer")
+            client = XmlRpcClient()
+            await MasterProxy(client, master.uri, "/gone").register_publisher(
+                "/rosout", "rosgraph_msgs/Log", gone
+            )
+            async with asyncio.timeout(30):
+                while gone not in caplog.text:
+                    await asyncio.sleep(0.01)
+            await client.close()
+        # One that asks for the records of a node that has none.
+        host, port = viewer.tcpros_address
+        reader, writer = await asyncio.open_connection(host, port)
+        fields = ["callerid=/rosout", f"md5sum={records.md5sum}", "topic=/rosout"]
+        parts = b"".join(struct.pack("<I", len(each)) + each.encode() for each in fields)
+        writer.write(struct.pack("<I", len(parts)) + parts)
+        assert b"does not publish /rosout" in await reader.read()
+        writer.close()
+    assert [each.getMessage() for each in caplog.records if each.levelname == "WARNING"] == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import tracemalloc
 from typing import Any
 
 import pytest
@@ -100,6 +101,60 @@ async def test_messages_without_a_header(watched, make_node):
             await deliver(pub, sub, String("c"))
         got = await statistics.get(timeout=30)
         assert (got.delivered_msgs, got.window_stop) == (2, Time(1004))
+
+
+async def test_a_clock_that_is_set_back(watched, make_node):
+    """As a simulation or a bag that starts over does it: the windows begin again."""
+    node, statistics, set_time = watched
+    other = await make_node("other")
+    async with (
+        other.advertise("points", PointStamped) as pub,
+        node.subscribe("points", PointStamped) as sub,
+    ):
+        await pub.wait_for_subscribers(timeout=30)
+        for now in (1000.0, 1000.5, 3.0, 3.5, 4.0, 0.5, 1.0, 5.0):
+            await set_time(now)
+            message = PointStamped.from_dict({"header": {"stamp": Time.from_sec(now)}})
+            await deliver(pub, sub, message)
+        for begin, stop, count in ((3, 4, 3), (0.5, 5, 3)):
+            got = await statistics.get(timeout=30)
+            assert (got.window_start, got.window_stop) == (
+                Time.from_sec(begin),
+                Time.from_sec(stop),
+            )
+            assert (got.delivered_msgs, got.dropped_msgs) == (count, 0)
+            assert got.period_max >= got.period_mean > Duration()
+
+
+async def test_a_clock_that_stands_still(watched, make_node):
+    """What is measured takes no memory for each message."""
+    node, statistics, set_time = watched
+    other = await make_node("other")
+    async with (
+        other.advertise("chatter", String, queue_size=3000) as pub,
+        node.subscribe("chatter", String, queue_size=1) as sub,
+    ):
+        await pub.wait_for_subscribers(timeout=30)
+        tracemalloc.start()
+        try:
+            for _ in range(10):
+                for _ in range(2000):
+                    pub.publish(data="a")
+                await pub.drain(timeout=30)
+            pub.publish(data="b")
+            async with asyncio.timeout(30):
+                while (await sub.get()).data != "b":
+                    pass
+            kept = tracemalloc.take_snapshot().filter_traces(
+                [tracemalloc.Filter(True, "*/node/statistics.py")]
+            )
+        finally:
+            tracemalloc.stop()
+        assert sum(each.size for each in kept.statistics("filename")) < 20_000
+        await set_time(1001.0)
+        await deliver(pub, sub, String("c"))
+        got = await statistics.get(timeout=30)
+        assert (got.delivered_msgs, got.period_max) == (20_002, SECOND)
 
 
 async def test_nothing_is_published_unless_it_is_asked_for(make_node):

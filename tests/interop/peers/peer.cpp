@@ -436,6 +436,55 @@ int watch_param(ros::NodeHandle& handle, const Args& args)
   return 0;
 }
 
+// param_setter: does what it reads, a word on a line each: set KEY NUMBER, table KEY NUMBER NAME...,
+// text KEY TEXT (\\r is a carriage return), get KEY, delete KEY.
+
+int set_params(ros::NodeHandle&, const Args&)
+{
+  say("ready", "true");
+  for (std::string line; std::getline(std::cin, line);)
+  {
+    std::istringstream words(line);
+    std::string what, key, text;
+    int number = 0;
+    words >> what >> key;
+    if (what == "set" && words >> number)
+    {
+      ros::param::set(key, number);
+    }
+    else if (what == "table" && words >> number)
+    {
+      std::map<std::string, int> table;
+      for (std::string name; words >> name;)
+      {
+        table[name] = number;
+      }
+      ros::param::set(key, table);
+    }
+    else if (what == "text")
+    {
+      words.get();
+      std::getline(words, text);
+      for (size_t at; (at = text.find("\\r")) != std::string::npos;)
+      {
+        text.replace(at, 2, "\r");
+      }
+      ros::param::set(key, text);
+    }
+    else if (what == "get")
+    {
+      say("result", ros::param::get(key, text) ? in_quotes(text) : "null");
+      continue;
+    }
+    else if (what == "delete")
+    {
+      ros::param::del(key);
+    }
+    say("result", "true");
+  }
+  return 0;
+}
+
 using Role = int (*)(ros::NodeHandle&, const Args&);
 
 const std::map<std::string, Role> roles = {
@@ -446,6 +495,7 @@ const std::map<std::string, Role> roles = {
     {"camera_client", call_camera},
     {"params", use_params},
     {"param_watch", watch_param},
+    {"param_setter", set_params},
     {"talker std_msgs/String", talk<std_msgs::String>},
     {"talker std_msgs/Int32", talk<std_msgs::Int32>},
     {"talker std_msgs/Empty", talk<std_msgs::Empty>},
@@ -467,7 +517,7 @@ const std::map<std::string, Role> roles = {
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "roscpp_peer");
-  if (argc < 3)
+  if (argc < 2)
   {
     return 2;
   }
