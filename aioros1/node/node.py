@@ -443,6 +443,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
         members = self._context.members
         stats = [role.stats for role in members if isinstance(role, Role)]
         doors = (self._acceptor.admission, self._server.admission)
+        budgets = (self._context.budget, self._server.budget)
         return NodeStats(
             messages=sum(each.messages for each in stats),
             bytes=sum(each.bytes for each in stats),
@@ -453,6 +454,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
             connections_refused=sum(door.refused for door in doors),
             connections_forbidden=sum(door.forbidden for door in doors),
             requests_delayed=self._server.delayed,
+            bytes_in_flight=sum(budget.used for budget in budgets),
+            connections_cut=sum(budget.cut for budget in budgets),
+            publishers_followed=self._context.dialling.followed,
         )
 
     def resolve_name(self, name: str) -> str:
