@@ -11,6 +11,7 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
 from aioros1.core.shared import Shared
 from aioros1.core.stats import RoleStats
+from aioros1.core.user_errors import described
 from aioros1.errors import ClosedError, ServiceError
 from aioros1.net.service_link import ServiceLink
 from aioros1.net.tcpros import Stream, connection_info, take_over
@@ -174,7 +175,7 @@ class Provision(Shared[Providing]):
 
     def log_error(self, what: str, error: Exception) -> None:
         """Log what failed, with the traceback; callers can make it fail as often as they like."""
-        about = (self.name, what, type(error), str(error))
+        about = (self.name, what, type(error), described(error))
         self._context.log.complain("service %s: %s", self.name, what, about=about, error=error)
 
     def end_calls(self, error: ClosedError) -> None:
