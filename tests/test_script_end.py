@@ -30,7 +30,7 @@ import aioros1
 
 async def main(node):
     pub = await node.advertise("cmd", "std_msgs/String", queue_size=100)
-    sub = await node.subscribe("cmd", "std_msgs/String", {callback})
+    sub = await node.subscribe("cmd", "std_msgs/String", {callback}, queue_size=100_000)
     service = await node.advertise_service("service", "std_srvs/Empty", {handler})
     await pub.wait_for_subscribers(2)
     pub.publish(data="drive")

@@ -11,10 +11,20 @@ import asyncio
 import contextlib
 import os
 import socket
+from asyncio import _get_running_loop
 from asyncio.trsock import TransportSocket
 from typing import Any
 
-__all__ = ["shut_down"]
+__all__ = ["abort", "shut_down"]
+
+
+def abort(transport: asyncio.WriteTransport) -> None:
+    """Close ``transport`` at once. If its event loop is closed, Python drops it anyway."""
+    try:
+        transport.abort()
+    except RuntimeError:
+        if _get_running_loop() is not None:
+            raise
 
 
 def shut_down(transport: asyncio.BaseTransport | None) -> None:

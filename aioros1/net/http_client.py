@@ -15,7 +15,7 @@ from typing import NamedTuple, cast
 from urllib.parse import quote, urlsplit
 
 from aioros1.net.connecting import connect, reason_of
-from aioros1.net.ending import shut_down
+from aioros1.net.ending import abort, shut_down
 from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
 from aioros1.wire.carriage_returns import with_references
@@ -305,7 +305,7 @@ class _Connection(asyncio.Protocol):
     def abort(self) -> None:
         """Close at once."""
         self._is_aborted = True
-        self._transport.abort()
+        abort(self._transport)
 
     async def _send(self, head: bytes, body: bytes) -> bool:
         """Send a request; False if the server answered before it had all of the body."""

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import Any, cast
 
 from aioros1.net.budget import Budget
-from aioros1.net.ending import shut_down
+from aioros1.net.ending import abort, shut_down
 from aioros1.net.tcpros import Stream
 from aioros1.wire.service import ServiceFrameError, frame_length
 
@@ -199,7 +199,7 @@ class ServiceLink(asyncio.Protocol):
 
     def abort(self) -> None:
         """Close at once; what was written may be lost."""
-        self._transport.abort()
+        abort(self._transport)
 
     def _hold(self) -> None:
         """Note what is held of the other side's data, and for it."""
@@ -213,7 +213,7 @@ class ServiceLink(asyncio.Protocol):
         )
         self._buffer.clear()
         self._wanted = 0
-        self._transport.abort()
+        abort(self._transport)
 
     # frames
 

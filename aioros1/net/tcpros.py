@@ -21,7 +21,7 @@ from aioros1.net.allow import AllowList
 from aioros1.net.budget import Share
 from aioros1.net.connecting import connect as connect_tcp
 from aioros1.net.connecting import reason_of
-from aioros1.net.ending import shut_down
+from aioros1.net.ending import abort, shut_down
 from aioros1.net.hosts import bind_sockets, set_keepalive
 from aioros1.options import Limits, Timeouts
 
@@ -160,7 +160,7 @@ class Stream:
 
     def abort(self) -> None:
         """Close at once; what was written may be lost."""
-        self.writer.transport.abort()
+        abort(self.writer.transport)
 
 
 async def connect(host: str, port: int, timeouts: Timeouts) -> Stream:
@@ -319,7 +319,7 @@ class Listener:
             self._spawn(partial(self._run, host), stream, name=f"tcpros {stream.peer}")
         except (ClosedError, OSError):  # the node is closed, or the peer has gone
             self.admission.leave(host)
-            writer.transport.abort()
+            abort(writer.transport)
 
     async def _run(self, host: str, stream: Stream) -> None:
         try:

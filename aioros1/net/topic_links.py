@@ -13,7 +13,7 @@ from typing import Any, Protocol, cast
 
 from aioros1.connection import ConnectionInfo
 from aioros1.net.budget import Budget
-from aioros1.net.ending import shut_down
+from aioros1.net.ending import abort, shut_down
 from aioros1.net.tcpros import Stream
 from aioros1.wire.frames import FrameError, FrameReceiver
 from aioros1.wire.handshake import TopicOffer
@@ -138,7 +138,7 @@ class IncomingLink(asyncio.BufferedProtocol):
     def abort(self) -> None:
         """Close at once."""
         if self._transport is not None:
-            self._transport.abort()
+            abort(self._transport)
 
     def has_progressed(self) -> bool:
         """Whether bytes came since the last call, or none could because of a pause."""
@@ -280,7 +280,7 @@ class OutgoingLink(asyncio.Protocol):
 
     def abort(self) -> None:
         if self._transport is not None:
-            self._transport.abort()
+            abort(self._transport)
 
     async def wait_closed(self) -> None:
         # A shield, so that cancelling this wait does not cancel those of others.
