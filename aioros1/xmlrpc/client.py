@@ -131,9 +131,13 @@ class XmlRpcClient:
 
 
 def is_answer(error: MasterError | PeerError) -> bool:
-    """Whether whoever is at the URI answers XML-RPC, whatever it has answered."""
-    is_silent = isinstance(error, MasterUnreachable | PeerUnreachable)
-    return not is_silent and not isinstance(error.__cause__, XmlRpcError)
+    """Whether a master or a node has answered, whatever it is: not so if nobody did, or in
+    another form than theirs."""
+    if isinstance(error, MasterUnreachable | PeerUnreachable):
+        return False
+    # Without a cause, the answer was no [code, status, value].
+    is_of_their_form = error.__cause__ is not None and not isinstance(error.__cause__, XmlRpcError)
+    return error.is_refusal or is_of_their_form
 
 
 def is_judgement(error: MasterError | PeerError) -> bool:
