@@ -131,13 +131,13 @@ class XmlRpcClient:
 
 
 def is_answer(error: MasterError | PeerError) -> bool:
-    """Whether a master or a node has answered, whatever it is: not so if nobody did, or in
-    another form than theirs."""
+    """Whether a master or node has answered [code, status, value], whatever it says. A fault
+    may come from any server."""
     if isinstance(error, MasterUnreachable | PeerUnreachable):
         return False
-    # Without a cause, the answer was no [code, status, value].
-    is_of_their_form = error.__cause__ is not None and not isinstance(error.__cause__, XmlRpcError)
-    return error.is_refusal or is_of_their_form
+    cause = error.__cause__  # None if the answer had another form
+    is_readable = cause is not None and not isinstance(cause, XmlRpcError | XmlRpcFault)
+    return error.is_refusal or is_readable
 
 
 def is_judgement(error: MasterError | PeerError) -> bool:
