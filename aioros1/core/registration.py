@@ -223,6 +223,8 @@ class Registration:
 
     def complain(self, error: BaseException) -> None:
         """Warn of a failure, once until another one or a success."""
+        if isinstance(error, MasterUnreachable) and not self._unanswered:
+            return  # a master that is lost is so for all; the heartbeat says so
         if self._complaint != (text := str(error)):
             self._complaint = text
             self._terms.warn(f"cannot register {self.kind} {self.name}: {text}")

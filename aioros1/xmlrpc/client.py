@@ -181,9 +181,13 @@ class XmlRpcClient:
 
 
 def is_answer(error: MasterError | PeerError) -> bool:
-    """Whether whoever is at the URI answers XML-RPC, whatever it has answered."""
-    is_silent = isinstance(error, MasterUnreachable | PeerUnreachable)
-    return not is_silent and not isinstance(error.__context__, XmlRpcError)
+    """Whether a master or node has answered [code, status, value], whatever it says. A fault
+    may come from any server."""
+    if isinstance(error, MasterUnreachable | PeerUnreachable):
+        return False
+    origin = error.__context__  # None if the answer had another form
+    is_readable = origin is not None and not isinstance(origin, XmlRpcError | XmlRpcFault)
+    return error.is_refusal or is_readable
 
 
 def is_judgement(error: MasterError | PeerError) -> bool:

@@ -14,7 +14,6 @@ from aioros1.xmlrpc.client import (
     as_it_is,
     call_triple,
     is_answer,
-    is_judgement,
 )
 
 __all__ = ["MasterProxy", "SystemState", "TopicType", "identify", "topic_types"]
@@ -210,23 +209,24 @@ class MasterProxy:
 async def identify(master: MasterProxy) -> int:
     """The master's process id; 0 if there is a master that does not tell.
 
-    Not every master has ``getPid``, but whoever answers that it has no such method, or that
-    the request failed, is there. Raises :class:`~aioros1.MasterError` if nobody is.
+    Not every master has ``getPid``. One that answers anything else that only masters answer
+    is one, too. Raises :class:`~aioros1.MasterError` if nobody does.
     """
     try:
         return await master.get_pid()
+    except MasterUnreachable:
+        raise
     except MasterError as error:
         if is_answer(error):
             return 0
-        if isinstance(error, MasterUnreachable):
-            raise
-        # A server may answer with an HTTP error what it has no method for.
-        try:
-            await master.get_uri()
-        except MasterError as second:
-            if not is_judgement(second):
-                raise error from None
-        return 0
+        for method, *params in (("getUri",), ("lookupNode", master.caller_id)):
+            try:
+                await master.call(method, *params)
+            except MasterError as another:
+                if not is_answer(another):
+                    continue
+            return 0
+        raise
 
 
 def topic_types(rows: Any) -> list[TopicType]:

@@ -175,6 +175,13 @@ class XmlRpcServer:
         if asyncio.current_task() in self._running:
             raise RuntimeError("a method cannot close its own server: use Reply(after=...)")
         listeners, self._listeners = self._listeners, []
+        # asyncio loses a connection that it has accepted in the iteration in which its
+        # listener is closed. So accept no more first.
+        loop = asyncio.get_running_loop()
+        for sock in [sock for listener in listeners for sock in listener.sockets]:
+            with contextlib.suppress(NotImplementedError):  # the proactor loop has none
+                loop.remove_reader(sock)
+        await asyncio.sleep(0)
         for listener in listeners:
             listener.close()
         http = self._http
