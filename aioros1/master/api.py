@@ -14,7 +14,7 @@ from typing import Any
 from aioros1.master.parameters import ParameterTree, holds_nil, param_updates, subscription_key
 from aioros1.master.registry import Answer, Changed, Notification, Registry
 from aioros1.names import resolve_from
-from aioros1.net.http_client import MAX_URI
+from aioros1.wire.http import MAX_URI
 
 __all__ = ["MasterApi"]
 

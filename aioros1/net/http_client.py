@@ -19,9 +19,9 @@ from aioros1.net.ending import shut_down
 from aioros1.net.hosts import set_keepalive, uri_host
 from aioros1.waiting import Waiters
 from aioros1.wire.carriage_returns import with_references
-from aioros1.wire.http import AnswerReader, HttpError
+from aioros1.wire.http import MAX_URI, AnswerReader, HttpError
 
-__all__ = ["MAX_URI", "HttpClient", "Server", "server_at"]
+__all__ = ["HttpClient", "Server", "server_at"]
 
 PER_SERVER = 8
 """The most connections to one server. Enough for a node that registers many roles at once,
@@ -48,10 +48,6 @@ class Server(NamedTuple):
     port: int
     head: bytes
     """The head of a request, up to the length of its body."""
-
-
-MAX_URI = 2_048
-"""The longest URI. Those of ROS 1 have some thirty characters."""
 
 
 @lru_cache(maxsize=1024)

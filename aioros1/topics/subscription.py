@@ -21,13 +21,13 @@ from aioros1.core.shared import Shared
 from aioros1.errors import ClosedError, HandshakeError, Md5MismatchError, PeerError
 from aioros1.log.library_log import ROSOUT
 from aioros1.net.backoff import Backoff
-from aioros1.net.http_client import MAX_URI
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream, connect, connection_info, take_over
 from aioros1.net.topic_links import IncomingLink, Received
 from aioros1.quoting import printable
 from aioros1.waiting import Obstacle, Waiters
 from aioros1.wire.handshake import TopicClient, TopicOffer
+from aioros1.wire.http import MAX_URI
 from aioros1.xmlrpc.node_proxy import NodeProxy
 
 if TYPE_CHECKING:

@@ -10,7 +10,10 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["MAX_HEAD", "AnswerReader", "HttpError"]
+__all__ = ["MAX_HEAD", "MAX_URI", "AnswerReader", "HttpError"]
+
+MAX_URI = 2_048
+"""The longest URI. Those of ROS 1 have some thirty characters."""
 
 MAX_HEAD = 16 << 10
 """The most bytes of a head, of a line between chunks, and of the fields after the last chunk.

@@ -43,7 +43,8 @@ async def asked(uri: str, *parts: bytes):
 
 def call(method: str, *params: str) -> bytes:
     values = "".join(f"<param><value>{each}</value></param>" for each in params)
-    return f"<methodCall><methodName>{method}</methodName><params>{values}</params></methodCall>".encode()
+    name = f"<methodName>{method}</methodName>"
+    return f"<methodCall>{name}<params>{values}</params></methodCall>".encode()
 
 
 def post(body: bytes, *fields: str, length: int | None = None) -> bytes:
