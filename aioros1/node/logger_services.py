@@ -16,6 +16,9 @@ __all__ = ["LoggerServices"]
 
 _RETRY = 1.0
 
+_MOST_CREATED = 1_000
+_LONGEST_NAME = 256
+
 
 class LoggerServices:
     """Reports and sets the levels of a node's loggers.
@@ -27,6 +30,7 @@ class LoggerServices:
         self._context = context
         self._services = services
         self._levels = levels
+        self._created = 0  # loggers that did not exist when their level was set
 
     async def run(self) -> None:
         """Provide both services as soon as the master accepts them."""
@@ -69,4 +73,12 @@ class LoggerServices:
             raise RosError(
                 f"unknown logger {request.logger!r}, expected one of {names}, or one below"
             )
+        if request.logger not in logging.Logger.manager.loggerDict:
+            # Loggers stay until the process ends, with one for each dot in the name.
+            if len(request.logger) > _LONGEST_NAME or self._created >= _MOST_CREATED:
+                raise RosError(
+                    f"logger {request.logger[:60]!r} does not exist, and is not created: at most "
+                    f"{_MOST_CREATED} are, with names of at most {_LONGEST_NAME} characters"
+                )
+            self._created += 1
         self._levels.set(logging.getLogger(request.logger), LEVELS[level][0])

@@ -319,6 +319,8 @@ class _Follower:
                 except (HandshakeError, PeerError, OSError, TimeoutError) as error:
                     self._complain(str(error))
                 except Exception as error:  # a fault of ours must not cost the publisher
+                    if self._context.loop_state.loop.is_closed():
+                        raise  # Python ends the task, and nothing can be awaited
                     if repr(error) != self.complaint:
                         self.complaint = repr(error)
                         what = f"subscriber {self._subscription.name}: connecting to {self._uri}"
