@@ -15,6 +15,7 @@ __all__ = [
     "check_kinds",
     "check_takes",
     "explained",
+    "explained_attributes",
     "methods_of",
     "no_attribute",
 ]
@@ -92,13 +93,25 @@ RATE_HABITS: Final[Mapping[str, str]] = {"sleep": "async for now in node.rate(hz
 
 
 def no_attribute(what: str, name: str, habits: Mapping[str, str]) -> AttributeError:
-    """The error for an attribute that ``what`` does not have, but something elsewhere has.
-
-    For ``__getattr__``, which slows down every look-up of an attribute in Python 3.11: no
-    class on the way of a message has one.
-    """
+    """The error for an attribute that ``what`` does not have, but something elsewhere has."""
     hint = f"; here it is: {habits[name]}" if name in habits else ""
     return AttributeError(f"{what} has no attribute {name!r}{hint}")
+
+
+def explained_attributes(habits: Mapping[str, str]) -> Callable[[Any, str], Any]:
+    """Make a ``__getattr__`` that knows attributes of other libraries.
+
+    It slows down every look-up of an attribute in Python 3.11: no class on the way of a
+    message has one.
+    """
+
+    def __getattr__(self: Any, name: str) -> Any:  # noqa: N807
+        if name in habits:
+            raise no_attribute(f"{type(self).__name__!r} object", name, habits)
+        # Again, for the error that it raised: it may come from within a property.
+        return object.__getattribute__(self, name)
+
+    return __getattr__
 
 
 _KEYWORD_HABITS: Final[Mapping[str, str]] = {
@@ -193,7 +206,7 @@ def check_takes(function: object, what: str, argument: str) -> None:
         raise TypeError(f"{what} is a function, got {function!r:.200}")
     try:
         signature = inspect.signature(function)
-    except (TypeError, ValueError):
+    except Exception:  # of the user's callable, too
         return  # not every function of C has one
     try:
         signature.bind(object())

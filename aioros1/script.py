@@ -170,13 +170,17 @@ class _Script(Generic[T]):
             main = self._main = self._node.create_task(self._run_main(), name="main")
             closed = asyncio.create_task(self._node.wait_closed(), name="wait_closed")
             main.add_done_callback(lambda _: self._close())
+            cancelled: asyncio.CancelledError | None = None
             while not closed.done():
                 try:
                     await asyncio.wait((closed,))
-                except asyncio.CancelledError:
-                    self._receive_signal()  # whoever else ends the program
+                except asyncio.CancelledError as error:
+                    cancelled = error
+                    self._receive_signal()  # as if it had been one
             self._failure = closed.exception()
             self.is_left_behind = not await self._has_ended(main)
+            if cancelled is not None:
+                raise cancelled
 
     async def resume(self) -> None:
         """Go on after the loop has stopped, and end."""

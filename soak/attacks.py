@@ -173,6 +173,10 @@ class Target:
         return await self.ask(post(call("setParam", "/attacker", key, value)))
 
 
+def array(values: str) -> str:
+    return f"<array><data>{values}</data></array>"
+
+
 def header(**fields: str) -> bytes:
     def frame(data: bytes) -> bytes:
         return struct.pack("<I", len(data)) + data
@@ -187,7 +191,7 @@ async def multicall(target: Target) -> None:
         "<name>params</name><value><array><data><value>/a</value><value>/p</value></data></array>"
         "</value></member></struct></value>"
     )
-    body = call("system.multicall", f"<array><data>{entry * 2000}</data></array>")
+    body = call("system.multicall", array(entry * 2000))
     await target.ask(post(body))
 
 
@@ -283,7 +287,7 @@ async def publishers(target: Target) -> None:
         f"<value>http://127.{each // 250 % 250}.{each % 250}.1:1/{each}</value>"
         for each in range(60_000)
     )
-    body = call("publisherUpdate", "/a", "/heard", f"<array><data>{uris}</data></array>")
+    body = call("publisherUpdate", "/a", "/heard", array(uris))
     await target.ask(post(body), seconds=20)
     await asyncio.sleep(10)
 
@@ -351,12 +355,12 @@ ATTACKS = {
     "large-param": Attack("a parameter of 60 MB, set and read", "master", large_param),
     "many-values": Attack("a parameter of 240,000 values, set and read", "master", many_values),
     "at-once": Attack("300 requests of 7,000 values at once", "master", small_values_at_once),
-    "system-state": Attack("10,000 registrations, then 50 times all of them", "master", system_state),
+    "system-state": Attack("10,000 registrations, asked for 50 times", "master", system_state),
     "long-key": Attack("a key of 60 MB with 30 million slashes", "master", long_key),
-    "long-uris": Attack("60 nodes with URIs of 8 MB, which are told of a publisher", "master", long_uris),
+    "long-uris": Attack("60 nodes with URIs of 8 MB, to be notified", "master", long_uris),
     "publishers": Attack("one list of 60,000 publishers", "node", publishers),
     "headers": Attack("500 subscribers with headers of 1 MB, then `getBusInfo`", "node", headers),
-    "long-names": Attack("500 subscribers with names of 1 MB, then `getBusInfo`", "node", long_names),
+    "long-names": Attack("the same with names of 1 MB", "node", long_names),
     "half-headers": Attack("2,000 headers of 1 MB without the last byte", "node", half_headers),
     "service-requests": Attack(
         "30 service requests of 900 MB, of which 100 MB arrive", "node", service_requests
@@ -383,6 +387,11 @@ async def started(*words: str, tree: Path) -> AsyncIterator[asyncio.subprocess.P
         await process.wait()
 
 
+def forget_peak(pid: int) -> None:
+    """Let the peak of a process begin now."""
+    Path(f"/proc/{pid}/clear_refs").write_text("5")
+
+
 def memory(pid: int, name: str) -> int:
     """Bytes of memory that a process has, or had at most."""
     with contextlib.suppress(OSError):
@@ -404,12 +413,12 @@ async def measure(attack: Attack, tree: Path, loop: list[str]) -> dict[str, Any]
             assert other.stdout is not None
             await other.stdout.readline()
             await asyncio.sleep(0.3)
-            Path(f"/proc/{process.pid}/clear_refs").write_text("5")  # the peak begins now
+            forget_peak(process.pid)
             before = memory(process.pid, "VmRSS")
             begin = time.monotonic()
             await attack.run(target)
             peak = memory(process.pid, "VmHWM")
-            lives = process.returncode is None and Path(f"/proc/{process.pid}").exists()
+            lives = process.returncode is None
             other.terminate()
             try:
                 async with asyncio.timeout(LONGEST + 10):

@@ -160,7 +160,7 @@ async def test_add_two_ints_server(master, make_node):
         await (await node.peer("/adder")).shutdown("enough")
         assert await server.ends() == 0
         assert server.lines[1:] == [f"{2**40} + -1 = {2**40 - 1}"]
-        assert server.errors == ""
+        assert server.errors == "/adder was shut down: [/tester] enough\n"
 
 
 async def test_add_two_ints_client(master, make_node):

@@ -72,6 +72,24 @@ async def test_what_opens_a_role_was_not_awaited(make_node, mistake):
     assert "async with" in text
 
 
+@one_loop
+async def test_python_names_what_was_not_awaited_as_users_know_it(make_node):
+    node = await make_node()
+    for mistake, name in (
+        (lambda: node.advertise("t", String), "Node.advertise"),
+        (lambda: node.subscribe("t", String), "Node.subscribe"),
+        (lambda: node.advertise_service("s", SetBool), "Node.advertise_service"),
+        (lambda: node.service_caller("s", SetBool), "Node.service_caller"),
+        (lambda: node.subscribe_param("p"), "Node.subscribe_param"),
+        (lambda: node.get_param("p"), "Node.get_param"),
+        (lambda: node.wait_for_message("t"), "Node.wait_for_message"),
+        (lambda: node.call("s", SetBool), "Node.call"),
+        (lambda: node.sleep(1), "Node.sleep"),
+    ):
+        with pytest.warns(RuntimeWarning, match=f"^coroutine '{name}' was never awaited"):
+            mistake()
+
+
 async def test_private_names_of_an_opening_are_just_missing(make_node):
     opening = (await make_node()).advertise("t", String)
     with pytest.raises(AttributeError, match=r"^'Opening' object has no attribute '__array__'$"):
@@ -256,6 +274,22 @@ TABLE: list[tuple[str, Callable[[Any], Any], type[Exception], list[str]]] = [
      ["async for now in node.rate(hz)"]),
     ("something else", lambda t: t.node.frobnicate, AttributeError,
      ["'Node' object has no attribute 'frobnicate'"]),
+    # imports
+    *(
+        (statement, lambda t, statement=statement: exec(statement), ModuleNotFoundError, parts)
+        for statement, parts in {
+            "from aioros1.msg.std_msg import String": ["did you mean aioros1.msg.std_msgs?"],
+            "import aioros1.srv.std_srv": ["did you mean aioros1.srv.std_srvs?"],
+            "from aioros1.msg.std_srvs import SetBool": ["did you mean aioros1.srv.std_srvs?"],
+            "from aioros1.srv.std_msgs import String": ["did you mean aioros1.msg.std_msgs?"],
+            "from aioros1.msg import String": ["mean from aioros1.msg.std_msgs import String?"],
+            "from aioros1.msg import qqqqqqqq": ["no package 'qqqqqqqq' has message definitions"],
+        }.items()
+    ),
+    ("a misspelt package", lambda t: aioros1.msg.std_msg, AttributeError,
+     ["has no attribute 'std_msg'", "did you mean aioros1.msg.std_msgs?"]),
+    ("a misspelt type", lambda t: aioros1.msg.std_msgs.Strng, AttributeError,
+     ["did you mean std_msgs/String?"]),
 ]  # fmt: skip
 
 
@@ -301,6 +335,16 @@ async def test_a_function_that_takes_one_argument_in_any_way_will_do(make_node):
     for callback in (print, [].append, String, Callable(), Callable().method,
                      lambda *messages: None, coroutine_function):  # fmt: skip
         await node.subscribe("t", String, callback)
+
+
+def test_an_attribute_error_within_a_property_is_not_hidden():
+    class Robot(aioros1.Node):
+        @property
+        def battery(self):
+            return self.options.no_such_option
+
+    with pytest.raises(AttributeError, match="no attribute 'no_such_option'"):
+        Robot("robot").battery  # noqa: B018
 
 
 async def test_a_node_that_was_not_started(master):

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from aioros1._public import public
 from aioros1.clock.clock import Clock
 from aioros1.errors import ClosedError
-from aioros1.hints import RATE_HABITS, no_attribute
+from aioros1.hints import RATE_HABITS, explained_attributes
 from aioros1.time import Time
 
 __all__ = ["Rate", "period_of"]
@@ -33,8 +33,7 @@ class Rate:
                 raise TypeError("a rate needs a node: use node.rate(hz) in place of Rate(...)")
             return super().__new__(cls)
 
-        def __getattr__(self, name: str) -> NoReturn:
-            raise no_attribute("'Rate' object", name, RATE_HABITS)
+        __getattr__ = explained_attributes(RATE_HABITS)
 
     def __init__(self, clock: Clock, period: int) -> None:
         self.missed = 0

@@ -31,12 +31,16 @@ class Opening(Generic[R]):
     Nothing happens until you do.
     """
 
-    __slots__ = ("_coroutine", "_role", "_what")
+    __slots__ = ("_coroutine", "_method", "_role", "_what")
 
-    def __init__(self, coroutine: Coroutine[Any, Any, R], what: str) -> None:
+    def __init__(self, coroutine: Coroutine[Any, Any, R], method: str, what: str) -> None:
+        # Python names the coroutine if it is never awaited, and users know the method.
+        named: Any = coroutine
+        named.__qualname__ = f"Node.{method}"
         # Keep the coroutine itself, not a function that makes it, so that Python warns if it
         # is never awaited.
         self._coroutine = coroutine
+        self._method = method
         self._what = what
 
     def __await__(self) -> Generator[Any, None, R]:
@@ -80,6 +84,6 @@ class Opening(Generic[R]):
 
         def _not_open(self) -> str:
             return (
-                f"the {self._what} is not open yet. Await the call that opens it, "
-                "as in `role = await node.advertise(...)`, or use it with `async with`"
+                f"the {self._what} is not open yet. Await the call that opens it, as in "
+                f"`x = await node.{self._method}(...)`, or use it with `async with`"
             )

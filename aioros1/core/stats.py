@@ -51,3 +51,10 @@ class NodeStats:
     """Connections closed at once because their address is not in ``allow``."""
     requests_delayed: int
     """XML-RPC requests that had to wait for ``limits.requests_per_second``."""
+    bytes_in_flight: int = 0
+    """Bytes of what is arriving, or waits to be read by others, that count for
+    ``limits.bytes_in_flight``."""
+    connections_cut: int = 0
+    """Connections closed because all together held more than ``limits.bytes_in_flight``."""
+    publishers_followed: int = 0
+    """Publishers that the node is connected to, or tries to connect to."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
+from difflib import get_close_matches
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
@@ -19,7 +20,7 @@ from typing import Any
 from aioros1._public import public
 from aioros1.errors import MessageNotFoundError
 from aioros1.idl.building import ACTION_SUFFIXES
-from aioros1.idl.paths import Kind
+from aioros1.idl.paths import KINDS, Kind
 from aioros1.idl.store import MessageStore, default_store
 
 __all__ = [
@@ -144,6 +145,19 @@ class _OurFinder(DefinitionFinder):
         "aioros1.action": "action",
     }
 
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        spec = super().find_spec(fullname, path, target)
+        parent, _, package = fullname.rpartition(".")
+        kind = self._KINDS.get(parent)
+        if spec is None and kind is not None and package.isidentifier() and package[0] != "_":
+            # Of a module by its own name, `from aioros1.msg import name` would say nothing.
+            raise ModuleNotFoundError(
+                f"No module named {fullname!r}: {_no_package(package, kind)}", name=parent
+            )
+        return spec
+
     def loader(self, fullname: str, path: Sequence[str] | None) -> DefinitionLoader | None:
         parent, _, package = fullname.rpartition(".")
         kind = self._KINDS.get(parent)
@@ -152,6 +166,27 @@ class _OurFinder(DefinitionFinder):
         store = default_store()
         return DefinitionLoader(store, package, kind) if names_of(store, package, kind) else None
 
+
+def _no_package(package: str, kind: Kind) -> str:
+    """Why there is no module for a package, and which one may have been meant."""
+    store = default_store()
+    found = [
+        f"aioros1.{other}.{package}" for other in KINDS if names_of(store, package, other)
+    ] or [
+        f"from aioros1.{kind}.{type_.replace('/', ' import ')}"
+        for type_ in store.suggest(package, kind)
+    ]
+    if not found:
+        found = [
+            f"aioros1.{kind}.{name}"
+            for name in get_close_matches(package, store._package_names(), 3, 0.75)
+            if names_of(store, name, kind)
+        ]
+    hint = f"; did you mean {' or '.join(found)}?" if found else ""
+    return f"no package {package!r} has {_WORDS[kind]} definitions{hint}"
+
+
+_WORDS: dict[Kind, str] = {"msg": "message", "srv": "service", "action": "action"}
 
 _installing = Lock()  # two threads may import aioros1.msg and aioros1.srv
 
@@ -172,11 +207,10 @@ def package_module(parent: str, name: str) -> ModuleType:
     try:
         return import_module(fullname)
     except ModuleNotFoundError as exc:
-        if exc.name != fullname:
+        if exc.name not in (fullname, parent):
             raise
-        raise AttributeError(
-            f"module {parent!r} has no attribute {name!r}: no definitions of such a package"
-        ) from None
+        why = str(exc).partition(": ")[2]
+        raise AttributeError(f"module {parent!r} has no attribute {name!r}: {why}") from None
 
 
 def package_names(kind: Kind) -> list[str]:

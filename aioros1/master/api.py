@@ -51,6 +51,7 @@ class MasterApi:
         self._notify = notify
         self._on_shutdown = shutdown
         self._max_registrations = max_registrations
+        self._state: Answer | None = None  # all registrations, until they change
         self._room = 0  # registrations that fit for certain
         self.uri = ""
         """The answer of getUri."""
@@ -66,6 +67,7 @@ class MasterApi:
 
         def told(change: Callable[..., Changed]) -> Callable[..., Answer]:
             def call(*params: Any) -> Answer:
+                self._state = None
                 answer, notifications = change(*params)
                 if notifications:
                     notify(notifications)
@@ -107,7 +109,7 @@ class MasterApi:
                 plain(registry.published_topics), 0, ("subgraph", _subgraph)
             ),
             "getTopicTypes": _checked(plain(registry.topic_types), []),
-            "getSystemState": _checked(plain(registry.system_state), [[], [], []]),
+            "getSystemState": _checked(lambda caller_id: self._system_state(), [[], [], []]),
             "getUri": _checked(lambda caller_id: (1, "", self.uri), ""),
             "getPid": _checked(lambda caller_id: (1, "", self.pid), -1),
             "shutdown": _checked(self._shutdown, 0, ("msg", _anything)),
@@ -120,6 +122,12 @@ class MasterApi:
             "subscribeParam": _checked(self._subscribe_param, 0, api, key),
             "unsubscribeParam": _checked(self._unsubscribe_param, 0, api, key),
         }
+
+    def _system_state(self) -> Answer:
+        # Tools ask for it again and again, and a large one takes long to make.
+        if self._state is None:
+            self._state = self._registry.system_state()
+        return self._state
 
     def _has_room(self, caller_id: str, name: str) -> bool:
         if self._registry.has_registered(caller_id, name):

@@ -79,9 +79,10 @@ class ParameterTree:
         parts = _parts(key)
         if not parts and not isinstance(value, dict):
             raise TypeError("cannot set root of parameter tree to non-dictionary")
-        if len(parts) + _depth(value) > self._max_depth:
+        size = Size(value)
+        if len(parts) + size.depth > self._max_depth:
             raise ValueError(f"more than {self._max_depth} namespaces inside one another")
-        self._make_room(parts, value)
+        self._make_room(parts, size)
         for part, node in reversed(list(zip(parts, self._branch(parts), strict=True))):
             value = {**node, part: value}
         self._root = value
@@ -129,8 +130,7 @@ class ParameterTree:
         """The full names of all parameters; namespaces are not among them."""
         return list(_names("", self._root))
 
-    def _make_room(self, parts: list[str], value: Any) -> None:
-        size = Size(value)
+    def _make_room(self, parts: list[str], size: Size) -> None:
         size.values += len(parts)
         size.bytes += sum(map(len, parts)) + _NAMESPACE * len(parts)
         most_bytes, most_values = self._max_bytes - size.bytes, self._max_values - size.values
@@ -207,32 +207,11 @@ def holds_nil(value: Any) -> bool:
 
     A server that stores a nil can never again answer for it or for any namespace above.
     """
-    pending = [value]
-    while pending:
-        value = pending.pop()
-        if value is None:
-            return True
-        if isinstance(value, dict):
-            pending += value.values()
-        elif isinstance(value, list):
-            pending += value
-    return False
+    return Size(value).has_nil
 
 
 def _parts(key: str) -> list[str]:
     return [part for part in key.split("/") if part]
-
-
-def _depth(value: Any) -> int:
-    """How deep dicts and lists are nested."""
-    depth = 0
-    level = [value]
-    while level := [item for item in level if isinstance(item, dict | list)]:
-        depth += 1
-        level = [
-            inner for item in level for inner in (item.values() if isinstance(item, dict) else item)
-        ]
-    return depth
 
 
 def _descend(value: Any, path: str) -> Any:

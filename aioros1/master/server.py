@@ -63,6 +63,11 @@ class MasterStats:
     """Connections closed at once because their address is not in ``allow``."""
     requests_delayed: int
     """Requests that had to wait for ``limits.requests_per_second``."""
+    bytes_in_flight: int = 0
+    """Bytes of requests that are arriving and answers that wait to be read, which count for
+    ``limits.bytes_in_flight``."""
+    connections_cut: int = 0
+    """Connections closed because all together held more than ``limits.bytes_in_flight``."""
 
 
 @public
@@ -181,7 +186,15 @@ class Master:
     def stats(self) -> MasterStats:
         """Counters of accepted and refused connections since the start."""
         door = self._server.admission
-        return MasterStats(door.open, door.refused, door.forbidden, self._server.delayed)
+        budget = self._server.budget
+        return MasterStats(
+            connections=door.open,
+            connections_refused=door.refused,
+            connections_forbidden=door.forbidden,
+            requests_delayed=self._server.delayed,
+            bytes_in_flight=budget.used,
+            connections_cut=budget.cut,
+        )
 
     async def start(self) -> Self:
         """Start to serve; returns the master.

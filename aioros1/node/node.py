@@ -7,7 +7,7 @@ import math
 import os
 from collections.abc import Callable, Collection, Coroutine, Mapping, Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from aioros1._public import public
 from aioros1.clock.clock import Clock
@@ -26,7 +26,7 @@ from aioros1.core.user_tasks import Stage, UserTasks
 from aioros1.errors import ClosedError, NodeNotFound
 from aioros1.events import Broadcast, ClockJumped, Event, EventStream
 from aioros1.graph import Graph
-from aioros1.hints import NODE_HABITS, check_coroutine, explained, no_attribute
+from aioros1.hints import NODE_HABITS, check_coroutine, explained, explained_attributes
 from aioros1.idl import MessageStore, default_store
 from aioros1.log.levels import LevelChanges
 from aioros1.log.node_log import NodeLog
@@ -116,9 +116,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
     """
 
     if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> NoReturn:
-            raise no_attribute("'Node' object", name, NODE_HABITS)
+        __getattr__ = explained_attributes(NODE_HABITS)
 
     @explained
     def __init__(
@@ -445,6 +443,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
         members = self._context.members
         stats = [role.stats for role in members if isinstance(role, Role)]
         doors = (self._acceptor.admission, self._server.admission)
+        budgets = (self._context.budget, self._server.budget)
         return NodeStats(
             messages=sum(each.messages for each in stats),
             bytes=sum(each.bytes for each in stats),
@@ -455,6 +454,9 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
             connections_refused=sum(door.refused for door in doors),
             connections_forbidden=sum(door.forbidden for door in doors),
             requests_delayed=self._server.delayed,
+            bytes_in_flight=sum(budget.used for budget in budgets),
+            connections_cut=sum(budget.cut for budget in budgets),
+            publishers_followed=self._context.dialling.followed,
         )
 
     def resolve_name(self, name: str) -> str:

@@ -34,7 +34,7 @@ class ParamMethods:
         :class:`~aioros1.ClosedError`.
         """
         opening = self._params.subscribe(key, default, self._contact.policy)
-        return Opening(opening, f"subscriber of parameter {key}")
+        return Opening(opening, "subscribe_param", f"subscriber of parameter {key}")
 
     async def get_param(self, key: str, default: Any = ...) -> Any:
         """Return the value of a parameter, or a dict of everything below it.
@@ -82,7 +82,11 @@ class ParamMethods:
 
     async def get_param_cached(self, key: str, default: Any = ...) -> Any:
         """Like :meth:`get_param`, but follow the parameter from the first call on, so that
-        later calls do not ask the master."""
+        later calls do not ask the master.
+
+        The node follows up to 256 parameters in this way. The one that was not asked for
+        longest makes room for another.
+        """
         return await self._ask(lambda: self._params.get_cached(key, default))
 
     async def _ask(self, ask: Callable[[], Awaitable[T]]) -> T:

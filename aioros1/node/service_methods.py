@@ -92,7 +92,7 @@ class ServiceMethods:
             what = "the serialised request" if raw else "the request"
             check_takes(handler, f"service {name}: the handler", what)
         opening = self._services.advertise(name, type, handler, options, self._contact.policy)
-        return Opening(opening, f"provider of service {name}")
+        return Opening(opening, "advertise_service", f"provider of service {name}")
 
     @overload
     def service_caller(
@@ -140,7 +140,7 @@ class ServiceMethods:
             persistent=persistent, timeout=timeout, tcp_nodelay=tcp_nodelay, raw=raw
         )
         opening = self._services.caller(name, type, options)
-        return Opening(opening, f"caller of service {name}")
+        return Opening(opening, "service_caller", f"caller of service {name}")
 
     @overload
     async def call(

@@ -79,7 +79,7 @@ class TopicMethods:
             headers=headers,
         )
         opening = self._topics.advertise(topic, type, options, self._contact.policy)
-        return Opening(opening, f"publisher {topic}")
+        return Opening(opening, "advertise", f"publisher {topic}")
 
     @overload
     def subscribe(
@@ -167,7 +167,7 @@ class TopicMethods:
             what = "the serialised message" if raw else "the message"
             check_takes(callback, f"subscriber {topic}: the callback", what)
         opening = self._topics.subscribe(topic, type, callback, options, self._contact.policy)
-        return Opening(opening, f"subscriber {topic}")
+        return Opening(opening, "subscribe", f"subscriber {topic}")
 
     @overload
     async def wait_for_message(

@@ -6,6 +6,7 @@ import asyncio
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
+from numbers import Real
 from threading import get_ident
 from types import EllipsisType
 from typing import Any, Generic, TypeVar, cast
@@ -66,7 +67,7 @@ class ServiceCallerOptions:
             self,
             {
                 "persistent": flag,
-                "timeout": (int | float | None, "a number of seconds or None"),
+                "timeout": (Real | None, "a number of seconds or None"),
                 "tcp_nodelay": flag,
                 "raw": flag,
             },

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any, Generic, Self, TypeVar
 
 from aioros1._public import public
@@ -38,7 +39,7 @@ class ServiceProviderOptions:
         check_kinds(
             self,
             {
-                "max_concurrency": (int | None, "a whole number of calls or None"),
+                "max_concurrency": (Integral | None, "a whole number of calls or None"),
                 "raw": (bool, "True or False"),
             },
         )

@@ -11,7 +11,7 @@ from __future__ import annotations
 __all__ = ["CarriageReturns", "with_references"]
 
 _REFERENCE = b"&#13;"
-_BEFORE_TEXT = frozenset({b"value", b"string", b"name"})
+_BEFORE_TEXT = frozenset({b"methodName", b"value", b"string", b"name"})
 
 
 def with_references(document: bytes) -> bytes:

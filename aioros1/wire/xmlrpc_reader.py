@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from xml.parsers import expat
 
 from aioros1.wire.carriage_returns import CarriageReturns
-from aioros1.wire.xmlrpc_scalars import BLANK, SCALARS, XmlRpcError, brief
+from aioros1.wire.xmlrpc_scalars import BLANK, SCALARS, XmlRpcError, brief, to_bytes_so_far
 
 __all__ = ["PIECE", "UNSET", "Document", "reading_document"]
 
@@ -35,7 +35,9 @@ def reading_document(
     parser.StartDoctypeDeclHandler = _refuse_doctype
     parser.XmlDeclHandler = _refuse_encoding
     try:
-        yield from _feed(parser, chunks)
+        for _ in _feed(parser, chunks):
+            decoder.convert_some()
+            yield
     except XmlRpcError:
         raise
     except (expat.ExpatError, ValueError) as error:
@@ -119,6 +121,7 @@ class Document:
         self._closed_params = 0
         self._text: list[str] = []
         self.text_append = self._text.append
+        self._bytes = bytearray()  # what was converted already of a base64 text
         # One entry for each open <value>: what it holds so far.
         self._values: list[Any] = []
         # One for each open <data> or <struct>: the list or dict it fills.
@@ -160,6 +163,17 @@ class Document:
         tags.append(tag)
         self._text.clear()
 
+    def convert_some(self) -> None:
+        """Convert what has come of a long base64 text, which takes too long in one step."""
+        if self._tags and self._tags[-1] == "base64":
+            try:
+                done, rest = to_bytes_so_far("".join(self._text))
+            except ValueError as error:
+                self._fail(str(error))
+            if done:
+                self._bytes += done
+                self._text[:] = [rest]
+
     def end(self, tag: str) -> None:
         self._tags.pop()
         if tag == "value":
@@ -174,6 +188,9 @@ class Document:
                 self._values[-1] = convert("".join(self._text))
             except ValueError as error:
                 self._fail(str(error))
+            if self._bytes and tag == "base64":
+                self._values[-1] = b"".join((self._bytes, self._values[-1]))
+                self._bytes.clear()
         elif tag == "name":
             if self._members[-1][0] is not UNSET:
                 self._fail("a member with two names")

@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 
 from aioros1._public import public
 
-__all__ = ["BLANK", "INT_MAX", "INT_MIN", "SCALARS", "XmlRpcError", "brief"]
+__all__ = ["BLANK", "INT_MAX", "INT_MIN", "SCALARS", "XmlRpcError", "brief", "to_bytes_so_far"]
 
 INT_MIN, INT_MAX = -(1 << 31), (1 << 31) - 1
 
@@ -95,6 +95,21 @@ def _to_bytes(text: str) -> bytes:
     try:
         return a2b_base64(text.encode("ascii").translate(None, _WHITE), strict_mode=True)
     except (Base64Error, ValueError):
+        raise ValueError(f"not base64: {brief(text)}") from None
+
+
+def to_bytes_so_far(text: str) -> tuple[bytes, str]:
+    """Convert the beginning of a base64 text; returns the bytes and the rest of the text.
+
+    Nothing is converted once the end of the text is in sight. Raises :class:`ValueError`.
+    """
+    if "=" in text:
+        return b"", text
+    data = text.encode("ascii").translate(None, _WHITE)
+    whole = len(data) & ~3
+    try:
+        return a2b_base64(data[:whole], strict_mode=True), data[whole:].decode()
+    except Base64Error:
         raise ValueError(f"not base64: {brief(text)}") from None
 
 

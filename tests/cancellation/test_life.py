@@ -68,7 +68,7 @@ async def ran(world):
         async with node.advertise("main", "std_msgs/String"):
             await asyncio.sleep(0)
 
-    await script._run(main, new(world))
+    await script._Script(main, new(world)).live()
 
 
 ACTS = (entered, started, started_local, closed, waited_closed, master_entered, ran)

@@ -153,8 +153,8 @@ class World:
             await anext(self.psub)
 
     def tell_of_param(self, value: Any) -> None:
-        """The master says that the followed parameter has changed."""
-        self.node._params.updated("/followed", value)
+        """Another node sets the followed parameter."""
+        self.other.create_task(self.other.set_param("/followed", value))
 
     def tell_of_event(self, event: Any) -> None:
         """Something has happened that ``node.events()`` tells of."""

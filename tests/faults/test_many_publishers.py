@@ -53,7 +53,7 @@ async def test_a_very_long_list_blocks_nobody(make_node, ask, bystander_of, capl
         assert (await sub.get(timeout=30)).data == "still here"
         assert len(asyncio.all_tasks()) < 30_000
         assert (await ask(node, "publisherUpdate", "/chatter", [talker.uri]))[0] == 1
-        await until(lambda: node._context.dialling.followed <= 2)
+        await until(lambda: node.stats.publishers_followed <= 2)
 
 
 async def test_few_connections_are_made_at_a_time(make_node, ask, hung, monkeypatch):
@@ -82,7 +82,7 @@ async def test_a_publisher_beyond_the_limit_is_heard_once_others_have_gone(make_
         await ask(node, "publisherUpdate", "/other", uris)
         second = await make_node("second")
         await second.advertise("other", String)
-        assert node._context.dialling.followed == 3
+        assert node.stats.publishers_followed == 3
     # The master has announced the second one alone, so that the others are left.
     await other.wait_for_publishers(timeout=30)
 
@@ -93,7 +93,7 @@ async def test_a_uri_without_end_is_left_out(make_node, ask):
     await node.subscribe("chatter", String)
     long = "http://" + "x" * 1_000_000
     assert (await ask(node, "publisherUpdate", "/chatter", [long, talker.uri]))[0] == 1
-    assert node._context.dialling.followed == 1
+    assert node.stats.publishers_followed == 1
     assert pub.subscriber_count == 0
 
 

@@ -147,17 +147,8 @@ async def test_a_follower_of_a_parameter(make_node, caplog):
     node = await make_node("node")
     async with node.subscribe_param("/gain", default=0) as followed:
         for number in range(1005):
-            node._params.updated("/gain", number + 1)
+            node._params.announced("/gain", number + 1)
         assert followed.stats.dropped == 5
         assert followed.value == 1005
     assert len(drops(caplog)) == 1
     assert "/gain" in drops(caplog)[0]
-
-
-@pytest.mark.parametrize("size", [None, 0])
-async def test_the_sizes_that_rospy_takes_for_none_get_an_answer_that_helps(make_node, size):
-    node = await make_node("node")
-    for make in (node.advertise, node.subscribe):
-        with pytest.raises(ValueError, match=rf"got {size}\. Every queue has a limit") as caught:
-            make("chatter", String, queue_size=size)
-        assert "`await send()`" in str(caught.value)

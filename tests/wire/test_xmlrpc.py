@@ -158,6 +158,11 @@ def test_carriage_returns_are_kept() -> None:
     assert value_of("a\r\nb") == value_of("<string>a&#13;&#10;b</string>") == "a\r\nb"
 
 
+def test_carriage_returns_in_the_name_of_a_method() -> None:
+    assert decode_call(encode_call("a\rb", ())) == ("a\rb", ())
+    assert decode_call(encode_call("\r\na\r", ())) == ("a", ())
+
+
 def test_carriage_returns_are_written_as_they_are() -> None:
     """roscpp knows no references by number."""
     document = encode_call("m", ({"k\r": ["a\r\nb"]},))
