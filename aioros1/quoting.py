@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import reprlib
+
 __all__ = ["LONGEST", "printable"]
 
 LONGEST = 300
@@ -16,7 +18,7 @@ def printable(text: object, limit: int = LONGEST) -> str:
     do something. A text that is too long is cut, and says how long it was. Doing it twice
     changes nothing more.
     """
-    whole = text if isinstance(text, str) else str(text)
+    whole = text if isinstance(text, str) else _text_of(text, limit)
     if len(whole) <= limit and whole.isprintable():
         return whole
     # Every character gives at least one: what is beyond the limit need not be looked at.
@@ -25,6 +27,20 @@ def printable(text: object, limit: int = LONGEST) -> str:
         return shown
     end = f"… ({len(whole)} characters)"
     return shown[: max(0, limit - len(end))] + end
+
+
+def _text_of(value: object, limit: int) -> str:
+    """The text of a value that is none, without that of everything in it: it may be large."""
+    if isinstance(value, bytes | bytearray):
+        return repr(bytes(value[:limit]))
+    if isinstance(value, list | tuple | dict):
+        return _BRIEF.repr(value)
+    return str(value)
+
+
+_BRIEF = reprlib.Repr()
+_BRIEF.maxlist = _BRIEF.maxtuple = _BRIEF.maxdict = 20
+_BRIEF.maxstring = 100
 
 
 def _escape(char: str) -> str:

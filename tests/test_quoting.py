@@ -39,3 +39,12 @@ def test_it_is_one_line_within_the_limit_and_doing_it_twice_changes_nothing(text
     assert len(shown) <= limit
     assert shown.isprintable()
     assert printable(shown, limit) == shown
+
+
+def test_a_large_value_costs_no_more_than_what_is_shown():
+    deep = {"a": [["x\n" * 10**6] * 10**6, list(range(10**6))]}
+    for value in (deep, (deep,), [deep] * 50, b"x\n" * 10**6):
+        shown = printable(value)
+        assert len(shown) <= 300
+        assert shown.isprintable()
+    assert printable(["callerid", "md5sum"]) == "['callerid', 'md5sum']"

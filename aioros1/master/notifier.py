@@ -212,7 +212,7 @@ class Notifier:
             return  # another node has come to that address meanwhile
         else:
             answer = await call(message.api, "shutdown", _CALLER_ID, message.reason)
-        self._log.debug("%s answered %s", message.api, printable(answer, 200))
+        self._log.debug("%s answered %s", message.api, answer)
 
     async def _encode(self, message: ParamUpdate) -> bytes:
         """The request that tells of ``message``; the same bytes for all nodes that it is for.

@@ -29,7 +29,8 @@ EVIL = "/x\n[ERROR] [/robot]: forged\r\x1b[2J\x9b\u2028\u202e"
 SHOWN = r"/x\n[ERROR] [/robot]: forged\r\x1b[2J\x9b\u2028\u202e"
 # XML has no escape sequences.
 XML, XML_SHOWN = (text.replace("\x1b", "").replace(r"\x1b", "") for text in (EVIL, SHOWN))
-ENDLESS = "y" * 700_000
+# Longer than what is shown, and within what a header may hold.
+ENDLESS = "y" * 900
 
 
 @pytest.fixture(autouse=True)
