@@ -302,8 +302,7 @@ class _Follower:
             case ["TCPROS", str(host), int(port), *_] if 0 < port < 65536:
                 return await self._shake_hands(await connect(host, port, context.timeouts))
         if not offers:
-            topic = self._subscription.name
-            raise PeerError(-1, f"requestTopic {topic} at {self._uri}: cannot use {answer!r:.200}")
+            raise PeerError(-1, f"requestTopic at {self._uri}: cannot use {answer!r:.200}")
         try:
             return await self._shake_hands(await local.connect(answer))
         except (OSError, TimeoutError) as error:
@@ -378,6 +377,7 @@ class _Follower:
 
     def _complain(self, text: str) -> None:
         """Log a problem once, until it changes or all has gone well for a while."""
+        text = text.replace(f" at {self._uri}", "")  # it is said once
         if text != self._complaint:
             self._complaint = text
             self._context.log.warning(
