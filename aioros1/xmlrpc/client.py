@@ -97,6 +97,11 @@ class XmlRpcClient:
         await self._http.close()
 
 
+def _whole(code: float) -> int:
+    """A code as an int. Python compares it with 1, and so takes bools and doubles."""
+    return int(code) if math.isfinite(code) else -1
+
+
 def as_it_is(value: Any) -> Any:
     """What reads an answer that nothing is to be made of."""
     return value
@@ -118,7 +123,8 @@ async def call_triple(
 
     Raises ``refused`` for any code but 1, for a fault and for an answer that is not a
     triple or that ``read`` cannot read; ``unreachable`` when there is no answer. With
-    ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so.
+    ``bare`` an answer need not be a triple: roscpp answers ``getBusStats`` so. What follows
+    the value is not looked at, and a value that is missing is 0, as for roscpp.
     """
     try:
         answer = await client.call(uri, method, *params, timeout=timeout)
@@ -133,10 +139,10 @@ async def call_triple(
         raise unreachable(str(error)) from error
     except ClosedError as error:  # the client is closed, and with it its node
         raise ClosedError(f"{method} at {uri}: {error}") from error
-    if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
-        code, status, value = answer
+    if isinstance(answer, list) and len(answer) >= 2 and isinstance(answer[0], (int, float)):
+        code, status, value = (*answer, 0)[:3]
         if code != 1:
-            raise refused(code, f"{method} at {uri}: {status}")
+            raise refused(_whole(code), f"{method} at {uri}: {status}")
     elif bare:
         value = answer
     else:
