@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import socket
+import struct
 from typing import Any
 
 import pytest
@@ -18,10 +20,13 @@ LOG = logging.getLogger("aioros1.test")
 class Transport(asyncio.BaseTransport):
     """One that knows nothing but where it comes from."""
 
-    def __init__(self, peername: Any, family: int | None = socket.AF_INET) -> None:
+    def __init__(
+        self, peername: Any, family: int | None = socket.AF_INET, user: int = os.geteuid()
+    ) -> None:
         super().__init__()
         self._peername = peername
         self._family = family
+        self._user = user
 
     def get_extra_info(self, name: str, default: Any = None) -> Any:
         if name == "peername":
@@ -31,7 +36,18 @@ class Transport(asyncio.BaseTransport):
         assert name == "socket"
         if self._family is None:
             return None
-        return type("Socket", (), {"family": self._family})()
+        return Socket(self._family, self._user)
+
+
+class Socket:
+    """A socket with a family and, at its other end, a user."""
+
+    def __init__(self, family: int, user: int) -> None:
+        self.family = family
+        self._user = user
+
+    def getsockopt(self, *_: int) -> bytes:
+        return struct.pack("3i", 1, self._user, 0)
 
 
 def v4(host: str) -> Transport:
@@ -71,8 +87,8 @@ async def test_only_what_is_allowed_is_let_in() -> None:
 
 @pytest.mark.parametrize(
     "transport",
-    [Transport("", socket.AF_UNIX), Transport(None, None)],
-    ids=["unix", "in process"],
+    [Transport("", socket.AF_UNIX), Transport("", socket.AF_UNIX, 0), Transport(None, None)],
+    ids=["unix", "root", "in process"],
 )
 async def test_peers_of_this_host_are_always_allowed_and_count_in_the_total(
     transport: Transport,
@@ -82,6 +98,22 @@ async def test_peers_of_this_host_are_always_allowed_and_count_in_the_total(
     assert (admission.forbidden, admission.refused) == (0, 1)
     admission.leave(THIS_HOST)
     assert admission.enter(transport) == THIS_HOST
+
+
+@pytest.mark.parametrize("allow", [None, [], ["127.0.0.0/8"]])
+async def test_other_users_of_this_host_are_not_allowed(
+    allow: list[str] | None, caplog: pytest.LogCaptureFixture
+) -> None:
+    admission, user = door(allow), os.geteuid() + 1
+    for _ in range(3):
+        assert admission.enter(Transport("", socket.AF_UNIX, user)) is None
+    assert (admission.open, admission.forbidden, admission.refused) == (0, 3, 0)
+    assert caplog.messages == [
+        (
+            f"refused a connection from this host to the port: it belongs to user {user}, "
+            f"and this process to {os.geteuid()}"
+        )
+    ]
 
 
 @pytest.mark.parametrize("peername", [None, OSError("not connected")])
