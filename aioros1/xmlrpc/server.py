@@ -56,7 +56,6 @@ FAULT_PARAMS = -32602
 FAULT_APPLICATION = -32500
 
 _LOG = logging.getLogger("aioros1.xmlrpc")
-_PATHS = frozenset({"/", "/RPC2"})
 _YIELD_EVERY = 32
 
 _ACCEPTING = 3
@@ -213,7 +212,7 @@ class XmlRpcServer:
         assert isinstance(connection, Connection)
         assert task is not None
         self._running.add(task)
-        connection.request_begins()
+        connection.request_begins(request.content)
         if request.task not in self._serving:
             self._serving.add(request.task)
             request.task.add_done_callback(self._serving.discard)
@@ -265,8 +264,6 @@ class XmlRpcServer:
 
     def _refuse(self, request: web.BaseRequest) -> web.Response | None:
         headers = request.headers
-        if request.path not in _PATHS:
-            return plain(404, "XML-RPC is served at / and /RPC2")
         if request.method != "POST":
             return plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
         if "Origin" in headers:
