@@ -60,6 +60,7 @@ class Lookups:
 
         Raises :class:`OSError` (``socket.gaierror``) if the name is unknown.
         """
+        host = host.lower()
         if len(host) > _LONGEST_NAME or "\0" in host:
             raise _no_name(host, f"expected at most {_LONGEST_NAME} characters, none of them null")
         failure = self._failures.get(host)

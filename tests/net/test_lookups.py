@@ -66,7 +66,8 @@ async def until(condition: Callable[[], bool]) -> None:
 async def test_a_name_is_looked_up_once_for_all_who_wait(resolver: Resolver) -> None:
     resolver.known["robot"] = "10.0.0.1"
     resolver.hold("robot")
-    waiting = [asyncio.create_task(resolve("robot")) for _ in range(5)]
+    names = ("robot", "Robot", "robot", "ROBOT", "robot")
+    waiting = [asyncio.create_task(resolve(name)) for name in names]
     await until(lambda: resolver.asked["robot"] == 1)
     waiting[0].cancel()
     waiting[3].cancel()
