@@ -109,6 +109,7 @@ class Connection(web.RequestHandler):
         "_answered",
         "_busy",
         "_connections",
+        "_content",
         "_ended",
         "_gone",
         "_head_bytes",
@@ -134,6 +135,7 @@ class Connection(web.RequestHandler):
         """The host it comes from; ``None`` before it is admitted."""
         self._gone: asyncio.Future[bool] | None = None
         self._busy = False
+        self._content: StreamReader | None = None  # of the request in progress
         self._waits_since: float | None = None
         self._heads: Heads | None = Heads()  # until the first head turns out to be in order
         self._head_bytes = 0  # of a head that is not complete
@@ -177,6 +179,8 @@ class Connection(web.RequestHandler):
             self._gone.set_result(True)
             return False
         self._is_half_closed = True
+        if self._content is not None and not self._content.is_eof():
+            return False  # the rest of the request never comes
         return not self._has_answered
 
     @property
@@ -189,12 +193,14 @@ class Connection(web.RequestHandler):
         self._busy = True
         self._waits_since = None
         self._head_bytes = 0
+        self._content = content
         if self._is_half_closed and not content.is_eof():
             self.force_close()  # the rest never comes
 
     def request_ends(self) -> None:
         """The request has been answered, or is about to be."""
         self._busy = False
+        self._content = None
         self._answered += 1
         if self._is_half_closed and self._has_answered:
             self.close()  # behind the answer
