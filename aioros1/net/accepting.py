@@ -85,7 +85,7 @@ class ListeningSocket:
                 return
             self._told = False
             conn.setblocking(False)
-            host = self._admission.enter(conn.family, address)
+            host = self._admission.enter(conn, address)
             if host is None:
                 conn.close()
                 continue

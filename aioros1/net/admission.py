@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import socket
+import struct
 from contextlib import suppress
 from typing import Any
 
@@ -16,8 +18,10 @@ __all__ = ["THIS_HOST", "Admission"]
 
 THIS_HOST = ""
 """The host of a peer that connected over a Unix socket or within the process. It is on this
-machine, always allowed, and does not count against ``connections_per_host``."""
+machine, is allowed if it belongs to the same user or to root, and does not count against
+``connections_per_host``."""
 
+_CREDENTIALS = struct.Struct("3i")  # process, user, group
 _INTERNET = (socket.AF_INET, socket.AF_INET6)
 
 
@@ -50,17 +54,17 @@ class Admission:
         self.refused = 0
         """Connections refused so far because there were too many."""
         self.forbidden = 0
-        """Connections refused so far because their address is not allowed."""
+        """Connections refused so far because their address, or their user, is not allowed."""
 
-    def enter(self, family: int | None = None, peername: Any = None) -> str | None:
-        """Decide about a new connection from ``peername``, as ``accept()`` gives it with the
-        ``family`` of the socket. A connection within the process has neither.
+    def enter(self, sock: socket.socket | None = None, peername: Any = None) -> str | None:
+        """Decide about a new connection, of which ``accept()`` has given ``sock`` and
+        ``peername``. A connection within the process has neither.
 
         Returns the host it comes from, as :func:`.host_of` names it, or ``None`` if you must
         close it at once. :meth:`leave` needs the host when the connection ends.
         """
         host = THIS_HOST
-        if family in _INTERNET:
+        if sock is not None and sock.family in _INTERNET:
             try:
                 address = parse_address(peername[0])
             except (TypeError, ValueError):
@@ -70,6 +74,11 @@ class Admission:
                 self.forbidden += 1
                 self._tell(str(address), "it is not in allow")
                 return None
+        elif sock is not None and (user := _user_of(sock)) not in (0, os.geteuid()):
+            # An abstract socket has no permissions, and everybody on the host can list its name.
+            self.forbidden += 1
+            self._tell(host, f"it belongs to user {user}, and this process to {os.geteuid()}")
+            return None
         if self.open >= self._total:
             self.refused += 1
             self._tell(host, f"there are {self._total} already (limits.{self._total_name})")
@@ -107,3 +116,10 @@ class Admission:
             self._log.warning(
                 "refused a connection from %s to %s: %s", host or "this host", self.what, why
             )
+
+
+def _user_of(sock: socket.socket) -> int:
+    """The user who opened the other end of a Unix socket."""
+    option: int = socket.SO_PEERCRED  # on Linux, and nowhere else are there abstract sockets
+    credentials = sock.getsockopt(socket.SOL_SOCKET, option, _CREDENTIALS.size)
+    return int(_CREDENTIALS.unpack(credentials)[1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import os
 import socket
 from collections.abc import Callable
@@ -27,7 +28,7 @@ async def connect(factory: Callable[[], P], host: str, port: int) -> tuple[async
     of a second and in parallel. (A host may have an IPv6 address that leads nowhere.)
     Raises :class:`OSError`.
     """
-    addresses = await resolve(host, port)
+    addresses = await resolve(host)
     if len(addresses) > 1 and not all_loopback(addresses):
         return await _race(factory, host, addresses, port)
     failures: list[OSError] = []
@@ -43,10 +44,42 @@ async def _attempt(
     factory: Callable[[], P], address: _Address, port: int
 ) -> tuple[asyncio.Transport, P]:
     family, host = address
+    loop = asyncio.get_running_loop()
+    numeric, _, zone = host.partition("%")
+    if zone:
+        sock = socket.socket(family, socket.SOCK_STREAM)
+        try:
+            await _connect_in_zone(sock, numeric, port, zone)
+            return await loop.create_connection(factory, sock=sock)
+        except BaseException:
+            sock.close()
+            raise
     # A numeric address with its family needs no look-up. uvloop would look up the address of
     # a socket that is passed to it unconnected, and would start four threads for that.
-    loop = asyncio.get_running_loop()
     return await loop.create_connection(factory, host, port, family=family)
+
+
+async def _connect_in_zone(sock: socket.socket, host: str, port: int, zone: str) -> None:
+    """Connect to a link-local address, as event loops do not without looking it up."""
+    loop = asyncio.get_running_loop()
+    sock.setblocking(False)
+    index = int(zone) if zone.isdecimal() else socket.if_nametoindex(zone)
+    error = sock.connect_ex((host, port, 0, index))
+    if error == errno.EINPROGRESS:
+        is_writable: asyncio.Future[None] = loop.create_future()
+        loop.add_writer(sock, _settle, is_writable)
+        try:
+            await is_writable
+        finally:
+            loop.remove_writer(sock)
+        error = sock.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
+    if error:
+        raise OSError(error, f"{os.strerror(error)} ([{host}%{zone}]:{port})")
+
+
+def _settle(future: asyncio.Future[None]) -> None:
+    if not future.done():
+        future.set_result(None)
 
 
 async def _race(

@@ -1,17 +1,18 @@
 """Host names and addresses: which to connect to, which to listen on, which to advertise.
 
-asyncio resolves names in a thread. Most ROS graphs run on one machine and call it
+Looking up a name takes a thread. Most ROS graphs run on one machine and call it
 ``localhost`` or use a numeric address; for these no thread is started.
 """
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import ipaddress
 import os
 import socket
 from collections.abc import Iterable, Mapping
+
+from aioros1.net.loop_state import loop_state
 
 __all__ = [
     "advertised_host",
@@ -32,27 +33,18 @@ __all__ = [
 _LOCALHOST = [(socket.AF_INET, "127.0.0.1"), (socket.AF_INET6, "::1")]
 
 
-async def resolve(host: str, port: int = 0) -> list[tuple[socket.AddressFamily, str]]:
+async def resolve(host: str) -> list[tuple[socket.AddressFamily, str]]:
     """Return the numeric addresses of ``host``, the most promising first.
 
-    ``localhost`` is 127.0.0.1, then ::1. Raises :class:`OSError` (``socket.gaierror``) if
-    the name is unknown.
+    ``localhost`` is 127.0.0.1, then ::1. A link-local address ends with its interface
+    (``fe80::1%2``). Raises :class:`OSError` (``socket.gaierror``) if the name is unknown.
     """
     literal = _literal(host)
     if literal is not None:
         return [literal]
     if host.rstrip(".").lower() == "localhost":
         return list(_LOCALHOST)
-    loop = asyncio.get_running_loop()
-    try:
-        infos = await loop.getaddrinfo(host, port, type=socket.SOCK_STREAM)
-    except UnicodeError as error:  # a label longer than 63 characters, and the like
-        raise socket.gaierror(socket.EAI_NONAME, f"{host!r} is not a host name: {error}") from None
-    found: dict[tuple[socket.AddressFamily, str], None] = {}
-    for family, _, _, _, address in infos:
-        if family in (socket.AF_INET, socket.AF_INET6):
-            found[family, str(address[0])] = None
-    return list(found)
+    return await loop_state().lookups.addresses(host)
 
 
 def local_address_facing(remote: str) -> str:

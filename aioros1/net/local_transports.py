@@ -76,7 +76,7 @@ class LocalTransports:
         """Let others connect. A transport that the system does not offer is left out."""
         if self._in_process:
             self._loop_state = loop_state()
-            self._loop_state.listeners[self._key] = self._listener
+            self._loop_state.listeners[self._key] = self._listener.new_protocol
         if self._unix and _host_key() is not None:
             name = f"aioros1.{self._key}"
             try:
@@ -131,15 +131,15 @@ class LocalTransports:
 
 
 def _connect_in_process(key: str) -> Stream:
-    listener = loop_state().listeners.get(key)
-    if listener is None:
+    their_protocol = loop_state().listeners.get(key)
+    if their_protocol is None:
         raise ConnectionRefusedError("no such node in this event loop")
     from aioros1.net.in_process import connect_in_memory
 
     loop = asyncio.get_running_loop()
     reader = asyncio.StreamReader(loop=loop)
     protocol = asyncio.StreamReaderProtocol(reader, loop=loop)
-    transport, _ = connect_in_memory(protocol, listener.new_protocol())
+    transport, _ = connect_in_memory(protocol, their_protocol())
     return Stream(reader, asyncio.StreamWriter(transport, protocol, reader, loop))
 
 

@@ -10,15 +10,13 @@ import asyncio
 import os
 import threading
 from asyncio import _get_running_loop
+from collections.abc import Callable
 from threading import get_ident
-from typing import TYPE_CHECKING
 
 from aioros1.net.coalescing import Coalescer
+from aioros1.net.lookups import Lookups
 from aioros1.net.turns import Turns
 from aioros1.wire.frames import READ
-
-if TYPE_CHECKING:
-    from aioros1.net.tcpros import Listener
 
 __all__ = ["LoopState", "loop_state"]
 
@@ -32,6 +30,7 @@ class LoopState:
         "__weakref__",
         "coalescer",
         "listeners",
+        "lookups",
         "loop",
         "receive_buffer",
         "thread_id",
@@ -51,8 +50,11 @@ class LoopState:
         """Shares the loop between requests that take long."""
         self.token = os.urandom(16).hex()
         """Names the loop to its own nodes. Nobody outside can guess it."""
-        self.listeners: dict[str, Listener] = {}
-        """The nodes of the loop that take connections within it, each by a key."""
+        self.listeners: dict[str, Callable[[], asyncio.BaseProtocol]] = {}
+        """The nodes of the loop that take connections within it: by a key, what makes the
+        protocol of their side of one."""
+        self.lookups = Lookups(loop)
+        """Looks up the names of hosts."""
         self.receive_buffer = memoryview(bytearray(READ))  # pages come when they are used
         """Where sockets are read into; one for all connections of the loop.
 

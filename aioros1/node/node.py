@@ -579,7 +579,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
             context.clock.simulate()
         if not (master_is_there and await self._introduction.make()):
             context.spawn(self._introduce_later, name=f"{self.name} introduction")
-        if self._own_address.is_given:
+        if self._own_address.can_be_doubted:
             context.spawn(self._check_address, name=f"{self.name} address")
         if options.rosout is not False:
             self._rosout = Rosout(context, self._topics, self._params, self._levels)

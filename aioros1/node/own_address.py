@@ -29,7 +29,9 @@ class OwnAddress:
         self, given: str | None, bind: str | None, master_uri: str, *, words: str = ""
     ) -> None:
         self._words = words
+        self._master_uri = master_uri
         self._master = urlsplit(master_uri).hostname or "localhost"
+        self._tells_master = False  # the host of the URI, because it is this machine's name
         self._bind = bind
         if given is None and bind is not None and not is_wildcard(bind):
             given = bind
@@ -48,13 +50,17 @@ class OwnAddress:
 
         Returns the host to announce, and the address to listen on.
         """
-        told = self.given if self.given is not None else await self._facing() or "localhost"
-        if self._bind is not None:
-            return told, self._bind
-        if self.is_given:
-            return told, bind_address_for(told)
-        # Also when there is no network yet, and only localhost can be announced.
-        return told, every_interface(told)
+        if self.given is not None:
+            return self.given, self._bind or bind_address_for(self.given)
+        # Without a network, only localhost can be announced yet.
+        told, facing = await self._facing() or ("localhost", "localhost")
+        # A name is no IPv6 address, but it may mean nothing else.
+        return told, self._bind or every_interface(facing if ":" in facing else told)
+
+    @property
+    def can_be_doubted(self) -> bool:
+        """Whether it takes a look-up to find out if others can use what they are told."""
+        return self.is_given or self._tells_master
 
     async def doubt(self) -> str | None:
         """Describe what seems wrong with a given address, if anything does.
@@ -62,7 +68,9 @@ class OwnAddress:
         This looks up names, which may take a while. A doubt is no error: this machine may have
         a name that only others know, and an address that only a router knows.
         """
-        host = self.given
+        host, words = self.given, self._words
+        if host is None and self._tells_master:
+            host, words = self._master, f"master URI {self._master_uri}"
         if host is None or is_loopback(host):
             return None
         try:
@@ -72,14 +80,16 @@ class OwnAddress:
         else:
             if is_wildcard(host):
                 what = "stands for all addresses"
-            elif any(is_local(address) for address in addresses):
+            elif all(map(is_loopback, addresses)):
+                what = f"is a loopback address here ({', '.join(addresses)})"
+            elif any(map(is_local, addresses)):
                 return None
             elif addresses == [host]:
                 what = "is no address of this machine"
             else:
                 what = f"is {', '.join(addresses)}, which is no address of this machine"
         return (
-            f"{self._words}: {host!r} {what}, and others are told to connect there; "
+            f"{words}: {host!r} {what}, and others are told to connect there; "
             "expected a name or an address by which they reach this machine"
         )
 
@@ -91,12 +101,25 @@ class OwnAddress:
         """
         if self.is_given or told is None or is_local(told):
             return None
-        return await self._facing()
+        if self._tells_master and told == self._master:
+            return None  # others look it up
+        facing = await self._facing()
+        return None if facing is None else facing[0]
 
-    async def _facing(self) -> str | None:
-        """The address of this machine that faces the master, if there is one."""
+    async def _facing(self) -> tuple[str, str] | None:
+        """What to announce to be reached from where the master is, and the address of this
+        machine that faces it; None if there is no way to it.
+
+        The two are the same, unless the master's host is a name of this machine that means
+        loopback here: the installers of Debian and Ubuntu write ``127.0.1.1 robot`` into
+        ``/etc/hosts``. Others know the machine by that name and look up something else, so
+        the name is announced, as by rospy and roscpp.
+        """
         with contextlib.suppress(OSError):
-            for _, address in await resolve(self._master):
+            addresses = [address for _, address in await resolve(self._master)]
+            for address in sorted(addresses, key=is_loopback):
                 with contextlib.suppress(OSError):
-                    return local_address_facing(address)
+                    facing = local_address_facing(address)
+                    self._tells_master = is_loopback(facing)
+                    return (self._master if self._tells_master else facing), facing
         return None

@@ -191,7 +191,8 @@ class ServiceMethods:
         return await self._contact.reach(lambda: self._services.type_of(name))
 
     async def wait_for_service(self, name: str, *, timeout: float | None = None) -> None:
-        """Wait until a service is registered and its provider answers.
+        """Wait until a service is registered and its provider takes connections; see
+        :meth:`aioros1.ServiceCaller.is_available`.
 
         Raises :class:`TimeoutError` after ``timeout`` seconds.
         """

@@ -31,7 +31,7 @@ from aioros1.idl import Service
 from aioros1.idl.genpy_types import GenpyMessage
 from aioros1.net.backoff import Backoff
 from aioros1.services.caller_connection import CallerConnection, connect_to
-from aioros1.services.lookup import look_up, probe
+from aioros1.services.lookup import look_up, reach
 from aioros1.services.side import Side, callers_side, raw_side
 from aioros1.waiting import Deadlines, Mutex
 from aioros1.wire.handshake import ServiceOffer
@@ -56,7 +56,8 @@ class ServiceCallerOptions:
     """Seconds for a call without a timeout of its own; None waits for ever."""
 
     tcp_nodelay: bool = True
-    """Ask the provider to send small answers at once."""
+    """Send each request at once. Otherwise the system may hold one back while it waits for
+    the acknowledgement of an earlier one (``TCP_NODELAY``)."""
 
     raw: bool = False
     """Send requests and return responses as serialised bytes."""
@@ -239,7 +240,11 @@ class ServiceCaller(Role, Generic[Q, A]):
         return call
 
     async def is_available(self) -> bool:
-        """Whether the service is registered and its provider answers."""
+        """Whether the service is registered, and its provider takes connections.
+
+        This asks the provider with a probe, as rospy and roscpp do. A provider that says
+        nothing counts as available after half a second, because some never answer a probe.
+        """
         return await self._obstacle() is None
 
     async def wait_for_service(self, *, timeout: float | None = None) -> None:
@@ -266,7 +271,7 @@ class ServiceCaller(Role, Generic[Q, A]):
         """Why the service is not available; None when it is."""
         self._check_open()
         try:
-            await probe(self._context, self.name, self._limits)
+            await reach(self._context, self.name, self._limits)
         except (ServiceError, HandshakeError, MasterError) as error:
             return error
         return None

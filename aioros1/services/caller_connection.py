@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from typing import TYPE_CHECKING
 
 from aioros1.connection import ConnectionInfo
@@ -36,10 +37,11 @@ async def connect_to(
     Raises :class:`~aioros1.ServiceUnavailable`, and :class:`~aioros1.HandshakeError` when the
     provider refuses or has another type.
     """
-    stream, header = await agree(
-        context, uri, wanted, persistent=persistent, tcp_nodelay=tcp_nodelay
-    )
+    stream, header = await agree(context, uri, wanted, persistent=persistent)
     try:
+        if not tcp_nodelay:
+            sock = stream.writer.get_extra_info("socket")
+            sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 0)
         stall = context.timeouts.stall
         link = ServiceLink(
             stream,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator, Mapping
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
@@ -25,7 +27,10 @@ if TYPE_CHECKING:
     from aioros1.core.context import Context
     from aioros1.idl.service import AnyService
 
-__all__ = ["agree", "look_up", "probe", "service_class_of", "type_of"]
+__all__ = ["agree", "look_up", "probe", "reach", "service_class_of", "type_of"]
+
+GRACE = 0.5
+"""Seconds in which a provider may refuse a probe; see :func:`reach`."""
 
 
 async def look_up(context: Context, service: str) -> str:
@@ -45,44 +50,15 @@ async def look_up(context: Context, service: str) -> str:
 
 
 async def agree(
-    context: Context,
-    uri: str,
-    wanted: ServiceOffer,
-    *,
-    persistent: bool = False,
-    probe: bool = False,
-    tcp_nodelay: bool = True,
+    context: Context, uri: str, wanted: ServiceOffer, *, persistent: bool = False
 ) -> tuple[Stream, Mapping[str, str]]:
     """Connect to the provider at ``uri``; returns the connection and the provider's header.
 
     Raises :class:`~aioros1.ServiceUnavailable`, and :class:`~aioros1.HandshakeError` when
     the provider refuses or has another type.
     """
-    service = wanted.service
-    try:
-        stream = await connect(*_address(service, uri), context.timeouts)
-    except (OSError, TimeoutError) as error:
-        raise ServiceUnavailable(f"service {service}: {error}") from None
-    try:
-        client = ServiceClient(
-            f"{service} at {stream.peer}",
-            context.name,
-            wanted,
-            persistent=persistent,
-            probe=probe,
-            tcp_nodelay=tcp_nodelay,
-            max_bytes=context.limits.header_bytes,
-            max_fields=context.limits.header_fields,
-        )
-        stream.writer.write(client.data_to_send())
-        try:
-            await stream.receive_header(client, timeout=context.timeouts.handshake)
-        except (OSError, TimeoutError) as error:
-            raise ServiceUnavailable(f"service {service}: {error}") from None
-    except BaseException:
-        stream.abort()
-        raise
-    return stream, client.header
+    stream, client = await _ask(context, uri, wanted, persistent=persistent)
+    return stream, await _answer(context, stream, client)
 
 
 async def probe(context: Context, service: str, limits: Deadlines) -> Mapping[str, str]:
@@ -91,16 +67,87 @@ async def probe(context: Context, service: str, limits: Deadlines) -> Mapping[st
 
     The probe ends with ``limits``. Raises as :func:`look_up` and :func:`agree` do.
     """
-    wanted = ServiceOffer(service, type="*", md5sum="*")
+    async with _probe(context, service, limits) as (stream, client):
+        return await _answer(context, stream, client)
+
+
+async def reach(context: Context, service: str, limits: Deadlines) -> None:
+    """Probe a provider, and return unless it refuses.
+
+    rospy and roscpp are content when they can connect and write, and read no answer. Some
+    providers never give one: rosgo's. So no answer within a moment, or the end of the
+    connection, is no refusal. Ends and raises as :func:`probe` does.
+    """
+    async with _probe(context, service, limits) as (stream, client):
+        try:
+            async with asyncio.timeout(GRACE):
+                while data := await stream.reader.read(client.missing):
+                    if client.receive_data(data):
+                        return
+        except TimeoutError:
+            pass
+        except OSError as error:
+            raise ServiceUnavailable(f"service {service}: {stream.peer}: {error}") from None
+
+
+@contextlib.asynccontextmanager
+async def _probe(
+    context: Context, service: str, limits: Deadlines
+) -> AsyncIterator[tuple[Stream, ServiceClient]]:
+    """Send a probe to the provider of a service, and close the connection afterwards."""
     try:
         async with limits.limit(None, f"service {service}: no answer"):
             uri = await look_up(context, service)
-            stream, header = await agree(context, uri, wanted, probe=True)
+            wanted = ServiceOffer(service, type="*", md5sum="*")
+            stream, client = await _ask(context, uri, wanted, probe=True)
+            try:
+                yield stream, client
+            finally:
+                stream.abort()
     except TimeoutError:
         context.check_open()  # closing ended it, not the timeout
         raise
-    stream.abort()
-    return header
+
+
+async def _ask(
+    context: Context,
+    uri: str,
+    wanted: ServiceOffer,
+    *,
+    persistent: bool = False,
+    probe: bool = False,
+) -> tuple[Stream, ServiceClient]:
+    """Connect to the provider at ``uri`` and send our header."""
+    service = wanted.service
+    host, port = _address(service, uri)
+    try:
+        stream = await connect(host, port, context.timeouts)
+    except (OSError, TimeoutError) as error:
+        raise ServiceUnavailable(f"service {service}: {error}") from None
+    client = ServiceClient(
+        f"{service} at {stream.peer}",
+        context.name,
+        wanted,
+        persistent=persistent,
+        probe=probe,
+        max_bytes=context.limits.header_bytes,
+        max_fields=context.limits.header_fields,
+    )
+    stream.writer.write(client.data_to_send())
+    return stream, client
+
+
+async def _answer(context: Context, stream: Stream, client: ServiceClient) -> Mapping[str, str]:
+    """Wait for the provider's header; close the connection if none comes."""
+    try:
+        try:
+            await stream.receive_header(client, timeout=context.timeouts.handshake)
+        except (OSError, TimeoutError) as error:
+            raise ServiceUnavailable(f"service {client.wanted.service}: {error}") from None
+    except BaseException:
+        stream.abort()
+        raise
+    return client.header
 
 
 def type_of(service: str, header: Mapping[str, str]) -> str:

@@ -108,7 +108,7 @@ class Services:
 
     async def wait_for(self, name: str, timeout: float | None) -> None:
         """See :meth:`aioros1.Node.wait_for_service`."""
-        # Any type will do: a provider answers a probe whatever type it names.
+        # Any type will do: a probe names none.
         async with await self.caller(name, "std_srvs/Empty", ServiceCallerOptions()) as caller:
             await caller.wait_for_service(timeout=timeout)
 

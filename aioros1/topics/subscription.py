@@ -362,10 +362,9 @@ class _Follower:
             case ["TCPROS", str(host), int(port), *_] if 0 < port < 65536:
                 return await self._shake_hands(await connect(host, port, context.timeouts))
         if not offers:
-            topic = self._subscription.name
             raise PeerError(
                 -1,
-                f"requestTopic {topic} at {printable(self._uri)}: cannot use "
+                f"requestTopic at {printable(self._uri)}: cannot use "
                 f"{printable(repr(answer), 200)}",
             )
         try:
@@ -446,6 +445,7 @@ class _Follower:
 
     def _complain(self, text: str) -> None:
         """Log a problem, or count it if it was logged a short while ago."""
+        text = text.replace(f" at {printable(self._uri)}", "")  # it is said once
         self.complaint = f"publisher at {printable(self._uri)}: {printable(text)}"
         log, topic = self._context.log, self._subscription.name
         what = "subscriber %s: publisher at %s: %s"

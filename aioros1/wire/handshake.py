@@ -9,8 +9,9 @@ take and give bytes and know nothing of sockets:
 * :class:`Server`: the accepting side of both, which learns from the header what is
   asked for and then accepts or refuses.
 
-The fields sent are those that rospy and roscpp send, and that rosbag, topic_tools and MATLAB
-need. The fields required are those that rospy and roscpp require.
+The fields sent are those that rospy and roscpp send, and no others: some programs close the
+connection on a field that they do not expect. The fields required are those that rospy and
+roscpp require.
 """
 
 from __future__ import annotations
@@ -25,7 +26,10 @@ from aioros1.wire.header import HeaderError, HeaderParser, encode_header
 
 __all__ = ["Server", "ServiceClient", "ServiceOffer", "TopicClient", "TopicOffer"]
 
-_TRUE = frozenset({"1", "true", "True"})
+
+def _is_true(value: str | None) -> bool:
+    return value is not None and value.strip().lower() in ("1", "true")
+
 
 MAX_NAME = 1_024
 """Characters of the name of a node, a topic, a service or a type."""
@@ -163,14 +167,18 @@ class TopicClient(_Client):
 
     def _request(self) -> dict[str, str]:
         wanted = self.wanted
-        return {
+        fields = {
             "callerid": self.caller_id,
             "md5sum": wanted.md5sum,
-            "message_definition": wanted.definition,
             "tcp_nodelay": "1" if self.tcp_nodelay else "0",
             "topic": wanted.topic,
             "type": wanted.type,
         }
+        # rospy sends an empty one, too, on which cROS and clients in Java give up. roscpp
+        # sends none at all.
+        if wanted.definition:
+            fields["message_definition"] = wanted.definition
+        return fields
 
     def _check(self, header: dict[str, str]) -> None:
         if "error" in header:
@@ -189,7 +197,7 @@ class TopicClient(_Client):
             type=header["type"],
             md5sum=header["md5sum"],
             definition=header.get("message_definition", ""),
-            latching=header.get("latching") in _TRUE,
+            latching=_is_true(header.get("latching")),
         )
 
 
@@ -204,7 +212,6 @@ class ServiceClient(_Client):
         *,
         persistent: bool = False,
         probe: bool = False,
-        tcp_nodelay: bool = True,
         max_bytes: int = 1 << 20,
         max_fields: int = 256,
     ) -> None:
@@ -217,25 +224,21 @@ class ServiceClient(_Client):
         """Whether to ask for a connection that carries several calls."""
         self.probe = probe
         """Whether to ask only if the service is there."""
-        self.tcp_nodelay = tcp_nodelay
-        """Whether to ask for small answers to be sent at once."""
 
     def _wish(self) -> str:
         return f"service {self.wanted.service} of"
 
     def _request(self) -> dict[str, str]:
+        # No type: rospy and roscpp send none, and cROS closes on a probe that has one.
         fields = {
             "callerid": self.caller_id,
             "md5sum": self.wanted.md5sum,
             "service": self.wanted.service,
-            "type": self.wanted.type,
         }
         if self.persistent:
             fields["persistent"] = "1"
         if self.probe:
             fields["probe"] = "1"
-        if self.tcp_nodelay:
-            fields["tcp_nodelay"] = "1"
         return fields
 
     def _check(self, header: dict[str, str]) -> None:
@@ -253,10 +256,10 @@ class Server(_Side):
     """
 
     def _wish(self) -> str:
-        if self.header:
-            service, topic = self.header.get("service"), self.header.get("topic")
-            return f"service {service} to" if service is not None else f"topic {topic} to"
-        return "a connection of"
+        if not self.header:
+            return "a connection of"
+        topic, service = self.topic, self.service
+        return f"topic {topic} to" if topic is not None else f"service {service} to"
 
     def _check(self, header: dict[str, str]) -> None:
         if "callerid" in header:
@@ -275,22 +278,23 @@ class Server(_Side):
     @property
     def topic(self) -> str | None:
         """The topic asked for; None if it is a service."""
-        return None if self.service is not None else self.header["topic"]
+        return self.header.get("topic")
 
     @property
     def service(self) -> str | None:
-        """The service asked for; None if it is a topic."""
-        return self.header.get("service")
+        """The service asked for; None if it is a topic. A client that names both asks for the
+        topic, as from rospy and roscpp."""
+        return None if "topic" in self.header else self.header.get("service")
 
     @property
     def persistent(self) -> bool:
         """Whether the caller wants to call several times."""
-        return self.header.get("persistent") in _TRUE
+        return _is_true(self.header.get("persistent"))
 
     @property
     def probe(self) -> bool:
         """Whether the caller only asks if the service is there."""
-        return self.header.get("probe") in _TRUE
+        return _is_true(self.header.get("probe"))
 
     def accept_topic(
         self, caller_id: str, offer: TopicOffer, extra: Mapping[str, str] | None = None
@@ -340,8 +344,8 @@ class Server(_Side):
     def _check_md5sum(self, what: str, type: str, md5sum: str) -> None:
         theirs = self.header["md5sum"]
         if theirs != md5sum and "*" not in (theirs, md5sum):
+            named = f"as {printable(self.header['type'])} " if "type" in self.header else ""
             raise self._fail(
-                f"client {printable(self.caller_id)} wants {what} as "
-                f"{printable(self.header.get('type', '?'))} with "
+                f"client {printable(self.caller_id)} wants {what} {named}with "
                 f"md5sum {printable(theirs)}, but it is {type} with md5sum {md5sum} here"
             )

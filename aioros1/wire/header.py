@@ -41,7 +41,8 @@ def decode_header(body: bytes, *, max_fields: int = 256) -> dict[str, str]:
     """Decode the fields of a header, given the bytes after its length.
 
     If a name occurs twice, its last value counts. The value is everything after the first
-    ``=``. rospy and roscpp do the same.
+    ``=``. White space around a name does not count. rospy and roscpp do the same. A field
+    with an empty name says nothing and is left out.
     """
     fields: dict[str, str] = {}
     position, end = 0, len(body)
@@ -61,9 +62,11 @@ def decode_header(body: bytes, *, max_fields: int = 256) -> dict[str, str]:
         if count > max_fields:
             raise HeaderError(f"more than {max_fields} fields")
         name, separator, value = body[start:position].partition(b"=")
-        if not separator or not name:
+        if not separator:
             raise HeaderError(f"field {body[start:position][:80]!r} is not name=value")
-        fields[name.decode("utf-8", "surrogateescape")] = value.decode("utf-8", "surrogateescape")
+        if name := name.strip():
+            text = value.decode("utf-8", "surrogateescape")
+            fields[name.decode("utf-8", "surrogateescape")] = text
     return fields
 
 

@@ -9,6 +9,7 @@ find the body is skipped.
 from __future__ import annotations
 
 import re
+import zlib
 
 __all__ = ["MAX_HEAD", "MAX_URI", "AnswerReader", "HttpError"]
 
@@ -45,6 +46,7 @@ class AnswerReader:
 
     __slots__ = (
         "_body",
+        "_is_gzip",
         "_left",
         "_max_bytes",
         "_next",
@@ -63,6 +65,7 @@ class AnswerReader:
         self._rest = b""  # of a head or a line that is not complete
         self._left = -1  # bytes of the body, the chunk or the trailer; -1 for no limit
         self._body = bytearray()
+        self._is_gzip = False
         self.has_begun = False
         """Whether any byte has come, so that the server must have read the request."""
         self.status = 0
@@ -151,6 +154,10 @@ class AnswerReader:
                 chunked = coding == b"chunked"
             elif name == b"server":
                 self.server = value
+            elif name == b"content-encoding":
+                if value.lower() not in (b"gzip", b"x-gzip", b"identity", b""):
+                    raise _not_http(line)
+                self._is_gzip = value.lower().endswith(b"gzip")
             elif name == b"connection":
                 options += (option.strip() for option in value.lower().split(b","))
         self.keeps_alive = b"close" not in options and (keeps_alive or b"keep-alive" in options)
@@ -231,9 +238,21 @@ class AnswerReader:
         return more
 
     def _complete(self, body: bytes) -> None:
-        self.body = body
         self._body.clear()
+        self.body = self._inflated(body) if self._is_gzip else body
         self._next = _END
+
+    def _inflated(self, body: bytes) -> bytes:
+        """Inflate a body that was compressed although nobody asked for it."""
+        inflate = zlib.decompressobj(wbits=31)
+        try:
+            inflated = inflate.decompress(body, self._max_bytes + 1)
+        except zlib.error as error:
+            raise HttpError(f"not gzip: {error}") from None
+        self._within_limit(len(inflated))
+        if not inflate.eof:
+            raise HttpError("the gzip data ends early")
+        return inflated
 
 
 def _bounded(data: bytes, what: str) -> bytes:

@@ -4,7 +4,8 @@ The value types, and how each is written:
 
 ================  =======================================================
 ``bool``          ``<boolean>``
-``int``           ``<int>``, 32 bits signed: XML-RPC knows no more
+``int``           ``<int>``, 32 bits signed: XML-RPC knows no more. The extensions
+                  that Python's parser reads (``<i8>``, ``<ex:i2>``) are read, too
 ``float``         ``<double>`` with all its digits, and ``nan``, ``inf``, ``-inf``
                   as the programs of ROS 1 write them
 ``str``           ``<string>``; what XML cannot carry is refused, and carriage
@@ -362,6 +363,9 @@ def decode_response(
 ) -> Any:
     """Read the value of a ``<methodResponse>`` document.
 
+    Ints of more than 32 bits are taken. So is an answer with several parameters, which are
+    returned as a list: alpyro answers three instead of one array.
+
     Raises :class:`XmlRpcFault` if it carries a fault, :class:`XmlRpcError` if it is not
     such a document. An empty one is what a roscpp node answers to a request it
     cannot read.
@@ -377,7 +381,9 @@ def decoding_response(
 ) -> Generator[None, None, Any]:
     """Read a document that came in ``chunks`` as :func:`decode_response` does, in steps of
     :data:`PIECE` bytes, and return the same."""
-    document = yield from reading_document(chunks, "methodResponse", max_depth, max_values)
+    document = yield from reading_document(
+        chunks, "methodResponse", max_depth, max_values, wide=True
+    )
     return _value_of(document)
 
 
@@ -397,6 +403,6 @@ def _value_of(document: Document) -> Any:
             raise XmlRpcError(f"fault: expected a struct, got {brief(fault)}")
         code = fault.get("faultCode", 0)
         raise XmlRpcFault(code if isinstance(code, int) else 0, str(fault.get("faultString", "")))
-    if len(document.params) != 1:
-        raise XmlRpcError(f"expected one value in the response, got {len(document.params)}")
-    return document.params[0]
+    if not document.params:
+        raise XmlRpcError("expected a value in the response, got none")
+    return document.params[0] if len(document.params) == 1 else document.params

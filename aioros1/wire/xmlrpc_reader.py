@@ -6,12 +6,20 @@ the number of values is bounded.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Generator, Iterator, Sequence
 from typing import Any, NoReturn
 from xml.parsers import expat
 
 from aioros1.wire.carriage_returns import CarriageReturns
-from aioros1.wire.xmlrpc_scalars import BLANK, SCALARS, XmlRpcError, brief, to_bytes_so_far
+from aioros1.wire.xmlrpc_scalars import (
+    BLANK,
+    SCALARS,
+    WIDE_SCALARS,
+    XmlRpcError,
+    brief,
+    to_bytes_so_far,
+)
 
 __all__ = ["PIECE", "UNSET", "Document", "reading_document"]
 
@@ -22,18 +30,20 @@ _PENDING: Any = object()
 
 
 def reading_document(
-    chunks: Sequence[bytes], root: str, max_depth: int, max_values: int
+    chunks: Sequence[bytes], root: str, max_depth: int, max_values: int, *, wide: bool = False
 ) -> Generator[None, None, Document]:
-    """Read what is in ``<root>``, in steps of :data:`PIECE` bytes, and return it. Raises
-    :class:`XmlRpcError`."""
-    decoder = Document(root, max_depth, max_values)
-    parser = expat.ParserCreate()
+    """Read what is in ``<root>``, in steps of :data:`PIECE` bytes, and return it.
+
+    Ints may have any size if ``wide``. Raises :class:`XmlRpcError`.
+    """
+    decoder = Document(root, max_depth, max_values, wide)
+    parser = expat.ParserCreate(_encoding(chunks))
     parser.buffer_text = True
     parser.StartElementHandler = decoder.start
     parser.EndElementHandler = decoder.end
     parser.CharacterDataHandler = decoder.text_append
     parser.StartDoctypeDeclHandler = _refuse_doctype
-    parser.XmlDeclHandler = _refuse_encoding
+    parser.XmlDeclHandler = _check_encoding
     try:
         for _ in _feed(parser, chunks):
             decoder.convert_some()
@@ -79,14 +89,49 @@ def _refuse_doctype(*_: object) -> NoReturn:
     raise XmlRpcError("document type declarations are refused")
 
 
-# The encodings built into expat. For others it asks Python, which imports a module of that
-# name and remembers each name forever, including those that a peer invented.
-_ENCODINGS = frozenset({"utf-8", "utf-16", "utf-16be", "utf-16le", "iso-8859-1", "us-ascii"})
+# The encodings built into expat, and those that Python has a table of 256 characters for,
+# which it gives to expat. For others Python would import a module of that name, and remember
+# each name forever, including those that a peer invented.
+_ENCODINGS = frozenset(
+    (
+        *("utf-8", "utf-16", "utf-16be", "utf-16le", "us-ascii", "koi8-r", "koi8-u"),
+        *(f"iso-8859-{number}" for number in (*range(1, 12), *range(13, 17))),
+        *(f"windows-{number}" for number in range(1250, 1259)),
+    )
+)
+_ALIASES = {
+    "utf8": "utf-8",
+    "ascii": "us-ascii",
+    "latin1": "iso-8859-1",
+    "latin-1": "iso-8859-1",
+} | {f"cp{number}": f"windows-{number}" for number in range(1250, 1259)}
+_DECLARED = re.compile(
+    rb"""(?:\xef\xbb\xbf)?<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([^"'<>]*)["']"""
+)
 
 
-def _refuse_encoding(version: str, encoding: str | None, standalone: int) -> None:
-    if encoding is not None and encoding.lower() not in _ENCODINGS:
-        raise XmlRpcError(f"not an encoding for XML-RPC: {brief(encoding)}")
+_DECLARATION = 300
+"""Bytes of a document in which its encoding is declared."""
+
+
+def _encoding(chunks: Sequence[bytes]) -> str | None:
+    """The encoding that the document declares; None if expat has to find it out."""
+    declared = _DECLARED.match(b"".join(chunk[:_DECLARATION] for chunk in chunks[:8]))
+    return None if declared is None else _known_encoding(declared[1].decode("latin-1"))
+
+
+def _known_encoding(name: str) -> str:
+    known = name.strip().lower().replace("_", "-")
+    known = _ALIASES.get(known, known)
+    if known not in _ENCODINGS:
+        raise XmlRpcError(f"not an encoding for XML-RPC: {brief(name)}")
+    return known
+
+
+def _check_encoding(version: str, encoding: str | None, standalone: int) -> None:
+    """Also what is declared in UTF-16, which :func:`_encoding` cannot read."""
+    if encoding is not None:
+        _known_encoding(encoding)
 
 
 # Which elements may be in which.
@@ -108,11 +153,12 @@ _NOTHING: frozenset[str] = frozenset()
 class Document:
     """Builds values from expat's events. Stacks, and no recursion, follow the nesting."""
 
-    def __init__(self, root: str, max_depth: int, max_values: int) -> None:
+    def __init__(self, root: str, max_depth: int, max_values: int, wide: bool) -> None:
         self.method: str | None = None
         self.params: list[Any] = []
         self.fault: Any = UNSET
         self._root = root
+        self._scalars = WIDE_SCALARS if wide else SCALARS
         self._max_depth = max_depth
         self._max_values = max_values
         self._values_left = max_values
@@ -131,6 +177,8 @@ class Document:
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         tags = self._tags
+        if ":" in tag:  # in a name space, as the extensions of Apache's are
+            tag = tag.rpartition(":")[2]
         if attributes:  # there are none in XML-RPC, but some programs declare name spaces
             self._count(len(attributes))
         if not tags:
@@ -174,8 +222,8 @@ class Document:
                 self._bytes += done
                 self._text[:] = [rest]
 
-    def end(self, tag: str) -> None:
-        self._tags.pop()
+    def end(self, _: str) -> None:
+        tag = self._tags.pop()
         if tag == "value":
             value = self._values.pop()
             if value is UNSET:
@@ -183,7 +231,7 @@ class Document:
             elif self._text and "".join(self._text).strip(BLANK):
                 self._fail("text beside a value")
             self._put(value)
-        elif (convert := SCALARS.get(tag)) is not None:
+        elif (convert := self._scalars.get(tag)) is not None:
             try:
                 self._values[-1] = convert("".join(self._text))
             except ValueError as error:
@@ -204,8 +252,8 @@ class Document:
         elif tag in ("data", "struct"):
             self._containers.pop()
         elif tag == "array":
-            if self._values[-1] is _PENDING:
-                self._fail("an array without a data element")
+            if self._values[-1] is _PENDING:  # <array/>, as Python's parser takes it
+                self._values[-1] = []
         elif tag == "param":
             self._closed_params += 1
             if len(self.params) != self._closed_params:

@@ -7,13 +7,22 @@ import reprlib
 from binascii import Error as Base64Error
 from binascii import a2b_base64
 from collections.abc import Callable
-from datetime import datetime
+from datetime import datetime, timedelta
 from itertools import islice
-from typing import Any, NoReturn
+from typing import Any
 
 from aioros1._public import public
 
-__all__ = ["BLANK", "INT_MAX", "INT_MIN", "SCALARS", "XmlRpcError", "brief", "to_bytes_so_far"]
+__all__ = [
+    "BLANK",
+    "INT_MAX",
+    "INT_MIN",
+    "SCALARS",
+    "WIDE_SCALARS",
+    "XmlRpcError",
+    "brief",
+    "to_bytes_so_far",
+]
 
 INT_MIN, INT_MAX = -(1 << 31), (1 << 31) - 1
 
@@ -57,22 +66,25 @@ _LONGEST_DOUBLE = 10_000  # characters; exact ones have up to 800
 _WHITE = b" \t\n\r\x0b\x0c"
 
 _INTEGER = re.compile(r"[+-]?[0-9]+")
-_DATETIME = re.compile(r"([0-9]{4})-?([0-9]{2})-?([0-9]{2})T([0-9]{2}):([0-9]{2}):([0-9]{2})")
+_DATETIME = re.compile(
+    r"([0-9]{4})-?([0-9]{2})-?([0-9]{2})T([0-9]{2}):?([0-9]{2}):?([0-9]{2})(?:[.,][0-9]+)?"
+    r"(?:Z|([+-][0-9]{2}):?([0-9]{2})?)?"
+)
+
+
+def _to_wide(text: str) -> int:
+    text = text.strip(BLANK)
+    if _INTEGER.fullmatch(text) is None or len(text) > 1000:
+        raise ValueError(f"not an int: {brief(text)}")
+    return int(text)
 
 
 def _to_int(text: str) -> int:
-    text = text.strip(BLANK)
-    if _INTEGER.fullmatch(text) is None:
-        raise ValueError(f"not an int: {brief(text)}")
-    value = int(text) if len(text) < 1000 else INT_MAX + 1
+    value = _to_wide(text)
+    # Python's own servers accept more, but can never send it back.
     if not INT_MIN <= value <= INT_MAX:
-        raise ValueError(f"an XML-RPC int has 32 bits: {brief(text)}")
+        raise ValueError(f"an XML-RPC int has 32 bits: {brief(value)}")
     return value
-
-
-def _to_long(text: str) -> NoReturn:
-    # Python's own servers accept an i8, but can never send it back.
-    raise ValueError(f"64-bit ints are not part of XML-RPC: {brief(text)}")
 
 
 def _to_bool(text: str) -> bool:
@@ -117,9 +129,12 @@ def _to_datetime(text: str) -> datetime:
     match = _DATETIME.fullmatch(text.strip(BLANK))
     try:
         if match is not None:
-            year, month, day, hour, minute, second = map(int, match.groups())
-            return datetime(year, month, day, hour, minute, second)
-    except ValueError:
+            year, month, day, hour, minute, second = map(int, match.groups()[:6])
+            hours, minutes = match[7] or "0", match[8] or "0"
+            offset = timedelta(hours=int(hours), minutes=int(hours[:1] + minutes))
+            # XML-RPC knows no time zones, so that this is the time in UTC.
+            return datetime(year, month, day, hour, minute, second) - offset
+    except (ValueError, OverflowError):
         pass
     raise ValueError(f"not a dateTime (19980717T14:08:55): {brief(text)}")
 
@@ -130,14 +145,20 @@ def _to_nil(text: str) -> None:
 
 
 SCALARS: dict[str, Callable[[str], Any]] = {
-    "int": _to_int,
-    "i4": _to_int,
-    "i8": _to_long,
+    **dict.fromkeys(("int", "i4", "i1", "i2", "i8", "biginteger"), _to_int),
     "boolean": _to_bool,
-    "double": _to_float,
+    **dict.fromkeys(("double", "float", "bigdecimal"), _to_float),
     "string": str,
     "base64": _to_bytes,
-    "dateTime.iso8601": _to_datetime,
+    **dict.fromkeys(("dateTime.iso8601", "dateTime"), _to_datetime),
     "nil": _to_nil,
 }
-"""The function for each element that converts its text. All raise :class:`ValueError`."""
+"""The function for each element that converts its text. All raise :class:`ValueError`.
+
+Those beside the standard's are extensions of Apache's that Python's parser reads as well.
+"""
+
+WIDE_SCALARS = SCALARS | dict.fromkeys(
+    (name for name, convert in SCALARS.items() if convert is _to_int), _to_wide
+)
+"""The same, for ints of any size. Some nodes number their connections with 63 bits."""

@@ -201,6 +201,11 @@ def _appending(found: list[bytes], pieces: Iterator[bytes]) -> Generator[None, N
         yield
 
 
+def _whole(code: float) -> int:
+    """A code as an int. Python compares it with 1, and so takes bools and doubles."""
+    return int(code) if math.isfinite(code) else -1
+
+
 def as_it_is(value: Any) -> Any:
     """What reads an answer that nothing is to be made of."""
     return value
@@ -231,7 +236,8 @@ async def call_triple(
     triple or that ``read`` cannot read, and what ``unreachable(method, error)`` makes of the
     error when there is no answer. These errors say all that there is to say, and have no
     causes: what a peer wrote is quoted in them. With ``bare`` an answer need not be a triple:
-    roscpp answers ``getBusStats`` so.
+    roscpp answers ``getBusStats`` so. What follows the value is not looked at, and a value
+    that is missing is 0, as for roscpp.
     """
     place = _place(method, uri)
     try:
@@ -249,10 +255,10 @@ async def call_triple(
         raise unreachable(method, error) from None
     except ClosedError as error:  # the client is closed, and with it its node
         raise ClosedError(f"{place}: {error}") from None
-    if isinstance(answer, list) and len(answer) == 3 and type(answer[0]) is int:
-        code, status, value = answer
+    if isinstance(answer, list) and len(answer) >= 2 and isinstance(answer[0], (int, float)):
+        code, status, value = (*answer, 0)[:3]
         if code != 1:
-            raise refused(code, f"{place}: {printable(status)}")
+            raise refused(_whole(code), f"{place}: {printable(status)}")
     elif bare:
         value = answer
     else:

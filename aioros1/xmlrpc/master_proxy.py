@@ -230,8 +230,9 @@ async def identify(master: MasterProxy) -> int:
 
 
 def topic_types(rows: Any) -> list[TopicType]:
-    """Convert the [[topic, type], ...] that several methods answer."""
-    return [TopicType(*row) for row in rows]
+    """Convert the [[topic, type], ...] that several methods answer. What is no such row is
+    left out, and whatever else a row has."""
+    return [TopicType(*row[:2]) for row in rows if isinstance(row, list) and len(row) >= 2]
 
 
 def _strings(values: Any) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple, TypeVar
@@ -163,11 +164,11 @@ class NodeProxy:
         )
 
     async def get_bus_stats(self) -> BusStats:
-        """Counters of all connections."""
+        """Counters of all connections. Rows that cannot be read are left out."""
         return await self.call("getBusStats", bare=True, read=_bus_stats)
 
     async def get_bus_info(self) -> list[BusInfo]:
-        """All connections."""
+        """All connections. Rows that cannot be read are left out."""
         return await self.call("getBusInfo", read=_bus_info)
 
     async def get_master_uri(self) -> str:
@@ -215,30 +216,59 @@ def _list(value: Any) -> list[Any]:
     return value
 
 
+def _readable(rows: Any, read: Callable[[Any], T]) -> list[T]:
+    """Read rows, and leave out those that cannot be read: the others are right."""
+    found = []
+    for row in _list(rows):
+        with contextlib.suppress(TypeError, ValueError, LookupError, OverflowError):
+            found.append(read(row))
+    return found
+
+
 def _bus_info(rows: Any) -> list[BusInfo]:
-    return [BusInfo(*row[:7]) for row in rows]
+    return _readable(rows, _connection)
+
+
+def _connection(row: Any) -> BusInfo:
+    number, destination, direction, transport, topic = _list(row)[:5]
+    # The rows of rosjava and roslisp end here. rosnode takes what is listed for connected.
+    connected = bool(row[5]) if len(row) > 5 else True
+    info = str(row[6]) if len(row) > 6 else ""
+    return BusInfo(
+        int(number), str(destination), direction, str(transport), str(topic), connected, info
+    )
 
 
 def _bus_stats(answer: Sequence[Any]) -> BusStats:
     publish, subscribe, service = (*answer, [], [], [])[:3]
     return BusStats(
-        [_published(row) for row in publish],
-        [SubscribeStats(topic, [_received(row) for row in rows]) for topic, rows in subscribe],
+        _readable(publish, _published),
+        _readable(subscribe, _subscribed),
         # rospy and roscpp report nothing here.
         ServiceStats(*service) if isinstance(service, list) and len(service) == 3 else None,
     )
 
 
-def _published(row: Sequence[Any]) -> PublishStats:
+def _subscribed(row: Any) -> SubscribeStats:
+    topic, rows = row
+    return SubscribeStats(topic, _readable(rows, _received))
+
+
+def _published(row: Any) -> PublishStats:
     if len(row) == 2:  # roscpp counts the bytes of the messages for each connection instead
         topic, rows = row
-        connections = [PublishConnection(each[0], each[1], each[3], bool(each[4])) for each in rows]
-        return PublishStats(topic, sum(each[2] for each in rows), connections)
+        connections = _readable(rows, lambda each: _sent((each[0], each[1], each[3], each[4])))
+        return PublishStats(topic, sum(_readable(rows, lambda each: int(each[2]))), connections)
     topic, count, rows = row
-    return PublishStats(topic, count, [PublishConnection(*each) for each in rows])
+    return PublishStats(topic, count, _readable(rows, _sent))
 
 
-def _received(row: Sequence[Any]) -> SubscribeConnection:
+def _sent(row: Any) -> PublishConnection:
+    number, sent, messages, connected = row
+    return PublishConnection(number, sent, messages, bool(connected))
+
+
+def _received(row: Any) -> SubscribeConnection:
     if len(row) == 4:  # as documented; rospy and roscpp put the number of messages second
         return SubscribeConnection(row[0], row[1], -1, row[2], bool(row[3]))
     return SubscribeConnection(row[0], row[1], row[2], row[3], bool(row[4]))

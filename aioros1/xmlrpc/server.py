@@ -66,7 +66,6 @@ FAULT_PARAMS = -32602
 FAULT_APPLICATION = -32500
 
 _LOG = logging.getLogger("aioros1.xmlrpc")
-_PATHS = frozenset({"/", "/RPC2"})
 
 _Afters = list[Callable[[], object]]
 
@@ -175,13 +174,6 @@ class XmlRpcServer:
         if asyncio.current_task() in self._running:
             raise RuntimeError("a method cannot close its own server: use Reply(after=...)")
         listeners, self._listeners = self._listeners, []
-        # asyncio loses a connection that it has accepted in the iteration in which its
-        # listener is closed. So accept no more first.
-        loop = asyncio.get_running_loop()
-        for sock in [sock for listener in listeners for sock in listener.sockets]:
-            with contextlib.suppress(NotImplementedError):  # the proactor loop has none
-                loop.remove_reader(sock)
-        await asyncio.sleep(0)
         for listener in listeners:
             listener.close()
         http = self._http
@@ -224,7 +216,7 @@ class XmlRpcServer:
         assert isinstance(connection, Connection)
         assert task is not None
         self._running.add(task)
-        connection.request_begins()
+        connection.request_begins(request.content)
         if request.task not in self._serving:
             self._serving.add(request.task)
             request.task.add_done_callback(self._serving.discard)
@@ -292,8 +284,6 @@ class XmlRpcServer:
 
     def _refuse(self, request: web.BaseRequest) -> web.Response | None:
         headers = request.headers
-        if request.path not in _PATHS:
-            return plain(404, "XML-RPC is served at / and /RPC2")
         if request.method != "POST":
             return plain(405, "XML-RPC is sent with POST", {"Allow": "POST"})
         if "Origin" in headers:

@@ -16,10 +16,12 @@ from typing import TYPE_CHECKING, Any
 from aiohttp import web
 
 from aioros1.net.ending import shut_down
+from aioros1.wire.http_heads import MAX_HEAD, Heads
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from aiohttp import StreamReader
     from aiohttp.abc import AbstractStreamWriter
     from aiohttp.typedefs import LooseHeaders
 
@@ -28,6 +30,10 @@ if TYPE_CHECKING:
     from aioros1.waiting import Waiters
 
 __all__ = ["Answer", "Connection", "LongDocument", "Quiet", "plain"]
+
+MAX_LINE = 32 << 10
+"""The most bytes of a line of a head; aiohttp's own limit is 8,190, and the reference's 65,536.
+All of a head has at most :data:`.MAX_HEAD`."""
 
 # Bytes that a transport may buffer, of one answer or of many, before the writer waits.
 _SMALL = 48 << 10
@@ -144,16 +150,22 @@ class Connection(web.RequestHandler):
 
     aiohttp waits for the rest of a request line as long as for the next request.
     ``connections`` holds those that are open, and ``ended`` wakes whoever waits for the end
-    of one. ``admission`` has let it in as ``host``.
+    of one. ``admission`` has let it in as ``host``. A client that closes its side behind its
+    last request gets the answer all the same.
     """
 
     __slots__ = (
         "_admission",
+        "_answered",
         "_busy",
         "_connection",
         "_connections",
+        "_content",
         "_ended",
         "_gone",
+        "_head_bytes",
+        "_heads",
+        "_is_half_closed",
         "_waits_since",
         "host",
     )
@@ -167,7 +179,7 @@ class Connection(web.RequestHandler):
         manager: web.Server,
         **options: Any,
     ) -> None:
-        super().__init__(manager, **options)
+        super().__init__(manager, max_line_size=MAX_LINE, max_field_size=MAX_LINE, **options)
         self._connections = connections
         self._ended = ended
         self._admission = admission
@@ -176,7 +188,12 @@ class Connection(web.RequestHandler):
         self._connection: asyncio.BaseTransport | None = None  # aiohttp forgets it early
         self._gone: asyncio.Future[bool] | None = None
         self._busy = False
+        self._content: StreamReader | None = None  # of the request in progress
         self._waits_since: float | None = None
+        self._heads: Heads | None = Heads()  # until the first head turns out to be in order
+        self._head_bytes = 0  # of a head that is not complete
+        self._answered = 0
+        self._is_half_closed = False
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._connection = transport
@@ -194,18 +211,49 @@ class Connection(web.RequestHandler):
             self._gone.set_result(True)
 
     def data_received(self, data: bytes) -> None:
+        if self._heads is not None:
+            data = self._heads.feed(data)
+            if self._heads.is_plain:
+                self._heads = None
         super().data_received(data)
         if not self._busy and self._waits_since is None:
             self._waits_since = self._loop.time()
+        if self._has_answered:
+            self._head_bytes += len(data)
+            if self._head_bytes > MAX_HEAD:
+                self._refuse(b"431 Request Header Fields Too Large")
 
-    def request_begins(self) -> None:
+    def eof_received(self) -> bool:  # type: ignore[override] # asyncio allows it
+        """The client sends no more: stay open for the answers that it still waits for."""
+        if self._gone is not None and not self._gone.done():
+            self._gone.set_result(True)
+            return False
+        self._is_half_closed = True
+        if self._content is not None and not self._content.is_eof():
+            return False  # the rest of the request never comes
+        return not self._has_answered
+
+    @property
+    def _has_answered(self) -> bool:
+        """Whether every request that has come has its answer."""
+        return self._answered >= self._request_count
+
+    def request_begins(self, content: StreamReader) -> None:
         """The head of a request is complete."""
         self._busy = True
         self._waits_since = None
+        self._head_bytes = 0
+        self._content = content
+        if self._is_half_closed and not content.is_eof():
+            self.force_close()  # the rest never comes
 
     def request_ends(self) -> None:
         """The request has been answered, or is about to be."""
         self._busy = False
+        self._content = None
+        self._answered += 1
+        if self._is_half_closed and self._has_answered:
+            self.close()  # behind the answer
 
     async def is_gone_after(self, seconds: float) -> bool:
         """Wait ``seconds``, or until the peer has gone; whether it has."""
@@ -225,9 +273,13 @@ class Connection(web.RequestHandler):
         if self._waits_since is None or self._waits_since > deadline:
             return
         self._waits_since = None
+        self._refuse(b"408 Request Timeout")
+
+    def _refuse(self, status: bytes) -> None:
+        """Answer half a head, and close."""
         if self.transport is not None:
             self.transport.write(
-                b"HTTP/1.1 408 Request Timeout\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
+                b"HTTP/1.1 %s\r\nContent-Length: 0\r\nConnection: close\r\n\r\n" % status
             )
         self.force_close()
 

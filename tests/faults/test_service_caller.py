@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 import struct
 
 import pytest
@@ -105,6 +106,54 @@ async def test_a_probe_is_closed_by_the_prober(fake, any_caller):
     assert await asking
     assert await wire.is_closed()
     assert await answered(fake, any_caller)
+
+
+@pytest.mark.parametrize("how", ["says nothing", "closes", "closes its side"])
+async def test_a_provider_that_answers_no_probe_is_available(fake, node, any_caller, how):
+    async def probed(asking):
+        task = asyncio.create_task(asking)
+        wire = await fake.greeted()
+        assert set(wire.header) == {"callerid", "md5sum", "probe", "service"}
+        if how == "closes":
+            await wire.close()
+        elif how == "closes its side":
+            wire.writer.write_eof()
+        result = await task
+        assert await wire.is_closed()
+        return result
+
+    assert await probed(any_caller.is_available())
+    await probed(node.wait_for_service("flip", timeout=30))
+    assert await answered(fake, any_caller)
+
+
+@pytest.mark.parametrize("how", ["refuses", "is of another kind", "breaks off"])
+async def test_a_provider_that_refuses_a_probe_is_not_available(fake, any_caller, how):
+    asking = asyncio.create_task(any_caller.is_available())
+    wire = await fake.accept()
+    if how == "refuses":
+        await wire.read_header()
+        await wire.send(header({"error": "only for friends"}))
+    elif how == "is of another kind":
+        await wire.read_header()
+        await wire.send(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+    else:
+        sock = wire.writer.get_extra_info("socket")
+        sock.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        wire.abort()  # with a reset
+    assert not await asking
+
+
+async def test_only_the_type_needs_an_answer(fake, make_node):
+    node = await make_node("asker", timeouts=aioros1.Timeouts(handshake=0.05))
+    with pytest.raises(aioros1.ServiceUnavailable, match="sent no whole connection header"):
+        await node.service_type("flip")
+    await (await fake.accept()).close()
+    asking = asyncio.create_task(node.service_type("flip"))
+    wire = await fake.greeted()
+    await wire.close()
+    with pytest.raises(aioros1.ServiceUnavailable, match="the other side closed it"):
+        await asking
 
 
 async def test_a_roscpp_provider_is_understood(fake, any_caller):

@@ -124,7 +124,7 @@ async def test_a_topic_that_is_not_published_is_refused(node, pub, bystander, to
 
 
 async def test_unknown_fields_and_equals_signs_do_no_harm(node, pub):
-    extra = {"rock=et": "a=b", "empty": ""}
+    extra = {"rock=et": "a=b", "empty": "", "": "x", "service": "/flip"}
     data = subscriber_header()[4:] + header(extra)[4:]
     async with dialled(node, frame(data)) as wire:
         assert await hears(wire, pub, "hi")
@@ -137,7 +137,7 @@ async def test_the_last_of_repeated_fields_counts(node, pub):
         assert await hears(wire, pub, "hi")
 
 
-@pytest.mark.parametrize("bad", [frame(b""), frame(b"no separator"), frame(b"=no name")])
+@pytest.mark.parametrize("bad", [frame(b""), frame(b"no separator")])
 async def test_a_field_without_an_equals_sign_is_refused(node, pub, bystander, bad):
     assert "name=value" in await refusal(node, frame(subscriber_header()[4:] + bad))
     assert await bystander.is_served()

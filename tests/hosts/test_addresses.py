@@ -198,3 +198,21 @@ def test_a_master_on_a_network_without_a_gateway(net: Network):
     b = start(two, f"http://{one.address}:11311/")
     a("start", "one", master_uri=f"http://{one.address}:11311/", **QUIET)
     topic_flows(b, a)
+
+
+def test_a_name_that_means_loopback_on_its_own_machine(net: Network):
+    one, two = net.host("one"), net.host("two")
+    # As the installers of Debian and Ubuntu write it; others know the address.
+    one.know({"localhost": "127.0.0.1", "robot": "127.0.1.1"})
+    two.know({"localhost": "127.0.0.1", "robot": one.address})
+    boss = one.start()
+    port = int(boss("master", host="0.0.0.0").rsplit(":")[-1].strip("/"))
+    uri = f"http://robot:{port}"
+    a, b, c = start(boss, uri, "a"), start(one, uri, "b"), start(two, uri, "c")
+    assert a("addresses")["host"] == "robot"
+    assert c("addresses")["host"] == two.address
+    topic_flows(a, b, "/here")
+    topic_flows(a, c, "/there")
+    topic_flows(c, a, "/back")
+    a("serve", "/flip", "robot here")
+    assert c("call", "/flip", timeout=10) == "robot here"

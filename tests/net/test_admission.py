@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import logging
+import os
 import socket
+import struct
 from typing import Any
 
 import pytest
@@ -15,12 +17,23 @@ from aioros1.net.hosts import local_address
 LOG = logging.getLogger("aioros1.test")
 
 
-def v4(host: str) -> tuple[int, Any]:
-    return socket.AF_INET, (host, 4242)
+class Socket:
+    """A socket with a family and, at its other end, a user."""
+
+    def __init__(self, family: int, user: int = os.geteuid()) -> None:
+        self.family = family
+        self._user = user
+
+    def getsockopt(self, *_: int) -> bytes:
+        return struct.pack("3i", 1, self._user, 0)
 
 
-def v6(host: str) -> tuple[int, Any]:
-    return socket.AF_INET6, (host, 4242, 0, 0)
+def v4(host: str) -> tuple[Any, Any]:
+    return Socket(socket.AF_INET), (host, 4242)
+
+
+def v6(host: str) -> tuple[Any, Any]:
+    return Socket(socket.AF_INET6), (host, 4242, 0, 0)
 
 
 def door(allow: list[str] | None = None, *, total: int = 100, per_host: int = 100) -> Admission:
@@ -80,7 +93,11 @@ async def test_only_what_is_allowed_is_let_in() -> None:
     assert (admission.open, admission.forbidden, admission.refused) == (2, 2, 0)
 
 
-@pytest.mark.parametrize("peer", [(socket.AF_UNIX, ""), ()], ids=["unix", "in process"])
+@pytest.mark.parametrize(
+    "peer",
+    [(Socket(socket.AF_UNIX), ""), (Socket(socket.AF_UNIX, 0), ""), ()],
+    ids=["unix", "root", "in process"],
+)
 async def test_peers_of_this_host_are_always_allowed_and_count_in_the_total(
     peer: tuple[Any, ...],
 ) -> None:
@@ -91,13 +108,30 @@ async def test_peers_of_this_host_are_always_allowed_and_count_in_the_total(
     assert admission.enter(*peer) == THIS_HOST
 
 
+@pytest.mark.parametrize("allow", [None, [], ["127.0.0.0/8"]])
+async def test_other_users_of_this_host_are_not_allowed(
+    allow: list[str] | None, caplog: pytest.LogCaptureFixture
+) -> None:
+    admission, user = door(allow), os.geteuid() + 1
+    peer: Any = Socket(socket.AF_UNIX, user)
+    for _ in range(3):
+        assert admission.enter(peer, "") is None
+    assert (admission.open, admission.forbidden, admission.refused) == (0, 3, 0)
+    assert caplog.messages == [
+        (
+            f"refused a connection from this host to the port: it belongs to user {user}, "
+            f"and this process to {os.geteuid()}"
+        )
+    ]
+
+
 @pytest.mark.parametrize("peername", [None, ("?", 4242)])
 @pytest.mark.parametrize("allow", [None, ["10.0.0.0/8"]])
 async def test_a_peer_that_has_gone_again_is_not_taken_for_one_of_this_host(
     peername: Any, allow: list[str] | None
 ) -> None:
     admission = door(allow)
-    assert admission.enter(socket.AF_INET, peername) is None
+    assert admission.enter(v4("")[0], peername) is None
     assert (admission.open, admission.forbidden, admission.refused) == (0, 0, 0)
 
 

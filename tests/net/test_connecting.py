@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import socket
 from collections.abc import Awaitable, Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -64,7 +65,7 @@ def network(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Network]:
     def make(**addresses: Callable[[], Awaitable[Any]]) -> Network:
         made = Network(**addresses)
 
-        async def resolve(host: str, port: int) -> Any:
+        async def resolve(host: str) -> Any:
             return [(V6, address) for address in addresses]
 
         monkeypatch.setattr(connecting, "resolve", resolve)
@@ -156,9 +157,10 @@ async def test_errors_of_another_kind_are_not_hidden(network: Any) -> None:
 async def test_localhost_is_whichever_loopback_address_listens(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    async def getaddrinfo(*_: Any, **__: Any) -> Any:
+    def getaddrinfo(*_: Any, **__: Any) -> Any:
         pytest.fail("asked the resolver")
 
+    monkeypatch.setattr(socket, "getaddrinfo", getaddrinfo)
     for address in ("127.0.0.1", "::1"):
         try:
             (sock,) = bind_sockets(address)
@@ -170,3 +172,31 @@ async def test_localhost_is_whichever_loopback_address_listens(
             transport.abort()
             await asyncio.sleep(0)
             await asyncio.sleep(0)
+
+
+async def test_a_link_local_address_needs_its_interface() -> None:
+    numeric = _link_local()
+    if numeric is None:
+        pytest.skip("needs a link-local address of IPv6")
+    with socket.socket(V6, socket.SOCK_STREAM) as sock:
+        sock.bind(("::", 0))
+        sock.listen()
+        for host in (numeric, f"[{numeric}]"):
+            transport, _ = await connect(asyncio.Protocol, host, sock.getsockname()[1])
+            assert transport.get_extra_info("peername")[0].partition("%")[0] in host
+            transport.abort()
+        port = sock.getsockname()[1]
+    with pytest.raises(ConnectionRefusedError, match="refused"):
+        await connect(asyncio.Protocol, numeric, port)
+    await asyncio.sleep(0)
+
+
+def _link_local() -> str | None:
+    try:
+        rows = [line.split() for line in Path("/proc/net/if_inet6").read_text().splitlines()]
+    except OSError:
+        return None
+    for digits, _, _, scope, _, interface in rows:
+        if scope == "20":
+            return f"{socket.inet_ntop(V6, bytes.fromhex(digits))}%{interface}"
+    return None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import socket
 from typing import Any
 
@@ -38,31 +37,33 @@ V4, V6 = socket.AF_INET, socket.AF_INET6
 async def test_numbers_and_localhost_need_no_thread(
     host: str, expected: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    async def getaddrinfo(*_: Any, **__: Any) -> Any:
+    def getaddrinfo(*_: Any, **__: Any) -> Any:
         pytest.fail("asked the resolver")
 
-    monkeypatch.setattr(asyncio.get_running_loop(), "getaddrinfo", getaddrinfo, raising=False)
-    assert await resolve(host, 1) == expected
+    monkeypatch.setattr(socket, "getaddrinfo", getaddrinfo)
+    assert await resolve(host) == expected
 
 
 async def test_names_are_looked_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    async def getaddrinfo(host: str, port: int, **_: Any) -> Any:
-        assert (host, port) == ("robot", 11311)
-        rows = [(V4, "10.0.0.1"), (V4, "10.0.0.1"), (V6, "fe80::1"), (socket.AF_UNIX, "x")]
-        return [(family, socket.SOCK_STREAM, 6, "", (address, port)) for family, address in rows]
+    def getaddrinfo(host: str, port: object, **_: Any) -> Any:
+        assert host == "robot"
+        rows: list[tuple[int, tuple[Any, ...]]] = [
+            (V4, ("10.0.0.1", 0)),
+            (V4, ("10.0.0.1", 0)),
+            (V6, ("fd00::1", 0, 0, 0)),
+            (V6, ("fe80::1", 0, 0, 3)),
+            (socket.AF_UNIX, ("x",)),
+        ]
+        return [(family, socket.SOCK_STREAM, 6, "", address) for family, address in rows]
 
-    class Loop:
-        pass
-
-    loop = Loop()
-    loop.getaddrinfo = getaddrinfo  # type: ignore[attr-defined]
-    monkeypatch.setattr(asyncio, "get_running_loop", lambda: loop)
-    assert await resolve("robot", 11311) == [(V4, "10.0.0.1"), (V6, "fe80::1")]
+    monkeypatch.setattr(socket, "getaddrinfo", getaddrinfo)
+    assert await resolve("robot") == [(V4, "10.0.0.1"), (V6, "fd00::1"), (V6, "fe80::1%3")]
 
 
-async def test_what_is_no_name_is_an_os_error() -> None:
+@pytest.mark.parametrize("host", ["a" * 64 + ".example", "a." * 200, "a..b", "a\0b", "\udc80"])
+async def test_what_is_no_name_is_an_os_error(host: str) -> None:
     with pytest.raises(OSError, match="not a host name"):
-        await resolve("a" * 64 + ".example", 1)
+        await resolve(host)
 
 
 def test_the_address_that_faces_another() -> None:

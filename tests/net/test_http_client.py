@@ -413,7 +413,7 @@ async def test_closing_ends_calls_wherever_they_are(monkeypatch: pytest.MonkeyPa
         await serving.has_been_asked(PER_SERVER)
         looking_up = asyncio.Event()
 
-        async def resolve(host: str, port: int) -> Any:
+        async def resolve(host: str) -> Any:
             looking_up.set()
             await asyncio.sleep(3600)
 
@@ -442,7 +442,7 @@ async def test_closing_does_not_wait_for_ever_for_a_transport(
 
 
 async def test_names_that_nobody_knows(monkeypatch: pytest.MonkeyPatch) -> None:
-    async def resolve(host: str, port: int) -> Any:
+    async def resolve(host: str) -> Any:
         raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
 
     monkeypatch.setattr(connecting, "resolve", resolve)

@@ -189,7 +189,7 @@ async def test_an_address_that_is_silent_does_not_hold_up_the_next(listening, mo
     loop = asyncio.get_running_loop()
     create_connection = loop.create_connection
 
-    async def two(host: str, port: int) -> list[tuple[socket.AddressFamily, str]]:
+    async def two(host: str) -> list[tuple[socket.AddressFamily, str]]:
         return [(socket.AF_INET, "192.0.2.1"), (socket.AF_INET, "127.0.0.1")]
 
     async def connection(factory, host, *args, **kwargs):

@@ -89,14 +89,55 @@ def names(monkeypatch: pytest.MonkeyPatch, routes: dict[str, str]) -> dict[str, 
     names: dict[str, list[str]] = {}
 
     async def resolve(host: str) -> list[tuple[socket.AddressFamily, str]]:
-        if host[0].isdigit():
-            return [(socket.AF_INET, host)]
+        if host[0].isdigit() or ":" in host:
+            return [(socket.AF_INET6 if ":" in host else socket.AF_INET, host)]
         if host not in names:
             raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
         return [(socket.AF_INET, address) for address in names[host]]
 
     monkeypatch.setattr(own_address, "resolve", resolve)
     return names
+
+
+@pytest.mark.parametrize(
+    ("means", "told", "listens"),
+    [
+        # As the installers of Debian and Ubuntu write it into /etc/hosts.
+        (["127.0.1.1"], "robot", "0.0.0.0"),
+        (["127.0.0.1", "::1"], "robot", "0.0.0.0"),
+        # Whoever looks up the name here gets nothing but an address of IPv6.
+        (["::1"], "robot", "::"),
+        # The address that others can use, wherever it stands.
+        (["127.0.1.1", "10.0.0.2"], "10.0.0.2", "0.0.0.0"),
+        (["::1", "2001:db8::2"], "2001:db8::2", "::"),
+        # There is no way to that one.
+        (["127.0.1.1", "10.0.0.77"], "robot", "0.0.0.0"),
+    ],
+)
+async def test_a_master_on_this_machine_called_by_its_name(names, routes, means, told, listens):
+    routes |= {each: each for each in ("127.0.0.1", "127.0.1.1", "::1", "10.0.0.2", "2001:db8::2")}
+    names["robot"] = means
+    address = OwnAddress(None, None, "http://robot:11311")
+    assert await address.find() == (told, listens)
+    doubt = await address.doubt() if address.can_be_doubted else None
+    if told != "robot":
+        assert doubt is None
+    elif len(means) == 1:
+        assert doubt is not None
+        assert doubt.startswith(
+            f"master URI http://robot:11311: 'robot' is a loopback address here ({means[0]}), "
+            "and others are told"
+        )
+    # The name stays right when what it means changes.
+    names["robot"] = ["10.0.0.3"]
+    assert await address.successor("robot") is None or told != "robot"
+
+
+async def test_where_it_is_bound_does_not_change_what_a_name_means(names, routes):
+    routes["127.0.1.1"] = "127.0.1.1"
+    names["robot"] = ["127.0.1.1"]
+    assert await OwnAddress(None, "0.0.0.0", "http://robot:1").find() == ("robot", "0.0.0.0")
+    assert await OwnAddress(None, "10.0.0.2", "http://robot:1").find() == ("10.0.0.2", "10.0.0.2")
 
 
 @pytest.mark.parametrize("given", ["localhost", "127.0.0.1", "::1", "10.0.0.2", "robot"])
@@ -112,10 +153,11 @@ async def test_an_address_of_this_machine_is_not_doubted(names, given):
         ("10.9.9.9", "'10.9.9.9' is no address of this machine"),
         ("0.0.0.0", "'0.0.0.0' stands for all addresses"),
         ("other", "'other' is 10.9.9.9, 10.9.9.8, which is no address of this machine"),
+        ("robot", "'robot' is a loopback address here (127.0.1.1)"),
     ],
 )
 async def test_an_address_that_others_can_hardly_use(names, given, what):
-    names["other"] = ["10.9.9.9", "10.9.9.8"]
+    names |= {"other": ["10.9.9.9", "10.9.9.8"], "robot": ["127.0.1.1"]}
     address = OwnAddress(given, None, REMOTE, words=f"ROS_HOSTNAME={given}")
     doubt = await address.doubt()
     assert doubt is not None
@@ -152,6 +194,29 @@ async def test_a_node_starts_and_warns_with_the_words(
     (record,) = found
     assert record.levelno == logging.WARNING
     assert record.getMessage().startswith(f"{words}: 'nowhere' cannot be looked up here")
+
+
+async def test_a_node_that_names_the_master_by_the_name_of_this_machine(monkeypatch, caplog):
+    system = socket.getaddrinfo
+
+    def getaddrinfo(host, *args, **keywords):
+        return system("127.0.1.1" if host == "robot" else host, *args, **keywords)
+
+    monkeypatch.setattr(socket, "getaddrinfo", getaddrinfo)
+    async with (
+        asyncio.timeout(30),
+        aioros1.Master("127.0.0.1", port=0, bind="0.0.0.0") as master,
+        aioros1.Node("demo", master_uri=f"http://robot:{master.port}", rosout=False) as node,
+        aioros1.Node("other", master_uri=f"http://robot:{master.port}", rosout=False) as other,
+        node.advertise("chatter", "std_msgs/String") as pub,
+        other.subscribe("chatter", "std_msgs/String"),
+    ):
+        assert node.uri.startswith("http://robot:")
+        assert node.tcpros_address[0] == "robot"
+        await pub.wait_for_subscribers()
+        while not (found := [each for each in caplog.records if each.name == "ros.demo"]):
+            await asyncio.sleep(0.001)
+    assert "'robot' is a loopback address here (127.0.1.1)" in found[0].getMessage()
 
 
 async def test_a_slow_look_up_delays_neither_start_nor_end(names, monkeypatch):

@@ -497,6 +497,41 @@ asyncio.run(main())
 
 
 @needs_abstract_sockets
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="needs the right to be another")
+@pytest.mark.parametrize(("user", "may"), [(65534, False), (0, True)])
+async def test_another_user_of_the_host_is_refused(make_node, ask, caplog, user, may):
+    node = await make_node("talker", local_transports=("unix",), allow=["127.0.0.1"])
+    async with node.advertise("chatter", String, latch=True) as pub:
+        pub.publish(data="for friends")
+        _, _, (_, name) = await ask(
+            node, "requestTopic", "/chatter", [["TCPROS"], offer_of("unix")]
+        )
+        program = f"""
+import os, socket, struct
+os.setuid({user})
+fields = ["callerid=/other", "md5sum=*", "topic=/chatter", "type=*"]
+body = b"".join(struct.pack("<I", len(each)) + each.encode() for each in fields)
+with socket.socket(socket.AF_UNIX) as sock:
+    sock.connect("\\0{name}")
+    try:
+        sock.sendall(struct.pack("<I", len(body)) + body)
+        print(bool(sock.recv(1)))
+    except OSError:
+        print(False)
+"""
+        process = await asyncio.create_subprocess_exec(
+            *(sys.executable, "-I", "-c", program), stdout=asyncio.subprocess.PIPE
+        )
+        told, _ = await process.communicate()
+        assert told.decode() == f"{may}\n"
+        assert node.stats.connections_forbidden == (0 if may else 1)
+        if not may:
+            assert "it belongs to user 65534, and this process to 0" in caplog.text
+        # Whom it lets in over TCP, is for `allow` to say.
+        assert pub.subscriber_count == 0 or may
+
+
+@needs_abstract_sockets
 async def test_another_host_is_answered_with_tcp(make_node, ask):
     node = await make_node("talker", local_transports=("intraprocess", "unix"))
     async with node.advertise("chatter", String):

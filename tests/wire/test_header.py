@@ -69,10 +69,21 @@ def test_the_last_of_repeated_fields_counts():
     assert parse(header(b"a=first", b"b=x", b"a=last")) == {"a": "last", "b": "x"}
 
 
-@pytest.mark.parametrize("bad", [b"", b"no separator", b"=no name"])
+@pytest.mark.parametrize("bad", [b"", b"no separator"])
 def test_a_field_without_an_equals_sign_is_refused(bad):
     with pytest.raises(HeaderError, match="is not name=value"):
         parse(header(b"a=b", bad, b"c=d"))
+
+
+def test_a_field_without_a_name_says_nothing():
+    assert parse(header(b"=x", b"a=b", b"  =y", b"=")) == {"a": "b"}
+
+
+def test_white_space_around_a_name_does_not_count():
+    assert parse(header(b" topic =/chatter ", b"\tmd5sum=*")) == {
+        "topic": "/chatter ",
+        "md5sum": "*",
+    }
 
 
 @pytest.mark.parametrize("value", [b"\xff\xfe", b"caf\xe9", b"\x80", b"\xed\xa0\x80"])

@@ -230,19 +230,12 @@ async def head(peer: Peer) -> tuple[int, dict[str, str], bytes]:
     return int(line[1]), {}, b""
 
 
-@pytest.mark.parametrize(
-    ("path", "expected"),
-    [("/", 200), ("/RPC2", 200), ("/RPC2?x=1", 200), ("/other", 404), ("/RPC2/", 404)],
-)
-async def test_the_root_and_rpc2_are_served_and_other_paths_are_404(
-    path: str, expected: int
-) -> None:
+@pytest.mark.parametrize("path", ["/", "/RPC2", "/RPC2?x=1", "/other", "/RPC2/", "/a%20b", "/ü"])
+async def test_any_path_is_served(path: str) -> None:
     async with serving() as server, connected(server) as peer:
-        await peer.post(PING, path=path)
-        status, _, _ = await peer.answer()
-        assert status == expected
-        await peer.post(PING)
-        assert await peer.value() == [1, "", "/c"]
+        for each in (path, "/RPC2"):
+            await peer.post(PING, path=each)
+            assert await peer.value() == [1, "", "/c"]
 
 
 @pytest.mark.parametrize("header", ["Content-Type: application/json", "X: y"])
@@ -299,6 +292,125 @@ async def test_garbage_is_answered_or_closed_and_does_no_harm(
             assert await peer.closed()
         assert await still_serves(server)
     assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
+
+
+# What the standard does not allow, and the servers of ROS 1 take.
+
+LENGTH = b"Content-Length: %d" % len(PING)
+ODD_HEADS = {
+    "line feeds": b"POST / HTTP/1.1\nHost: x\n" + LENGTH + b"\n\n",
+    "a line feed at the end": b"POST / HTTP/1.1\r\nHost: x\r\n" + LENGTH + b"\r\n\n",
+    "some line feeds": b"POST / HTTP/1.1\r\nHost: x\n" + LENGTH + b"\r\n\r\n",
+    "folded": b"POST / HTTP/1.1\r\nHost: x\r\nX: a\r\n\tb\r\n  c\r\n" + LENGTH + b"\r\n\r\n",
+    "folded length": b"POST / HTTP/1.1\nContent-Length:\n %d\nHost: x\n\n" % len(PING),
+    "blank before colon": b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length : %d\r\n\r\n" % len(PING),
+    "empty lines before": b"\n\nPOST / HTTP/1.1\nHost: x\n" + LENGTH + b"\n\n",
+    "no host": b"POST / HTTP/1.1\r\n" + LENGTH + b"\r\n\r\n",
+    "9 kB line": b"POST / HTTP/1.1\r\nX: " + b"x" * 9000 + b"\r\n" + LENGTH + b"\r\n\r\n",
+    "30 kB line": b"POST / HTTP/1.1\r\nX: " + b"x" * 30000 + b"\r\n" + LENGTH + b"\r\n\r\n",
+    "9 kB path": b"POST /" + b"x" * 9000 + b" HTTP/1.1\r\n" + LENGTH + b"\r\n\r\n",
+    "7 kB path, 60 lines": b"POST /"
+    + b"x" * 7000
+    + b" HTTP/1.1\r\n"
+    + b"".join(b"X-%d: %d\r\n" % (number, number) for number in range(60))
+    + LENGTH
+    + b"\r\n\r\n",
+    "letters": b"POST / HTTP/1.1\r\nhOST: x\r\ncONTENT-lENGTH:%d\r\n\r\n" % len(PING),
+    "latin-1": b"POST / HTTP/1.1\r\nX: gr\xfc\xdfe\r\n" + LENGTH + b"\r\n\r\n",
+}
+
+
+@pytest.mark.parametrize("how", ["at once", "in pieces", "pipelined", "half-closed"])
+@pytest.mark.parametrize("head", ODD_HEADS.values(), ids=ODD_HEADS.keys())
+async def test_odd_heads_are_taken(head: bytes, how: str) -> None:
+    async with serving() as server, connected(server) as peer:
+        if how == "pipelined":
+            await peer.send((head + PING) * 3)
+        elif how == "in pieces":
+            for begin in range(0, len(head), max(7, len(head) // 20)):
+                await peer.send(head[begin : begin + max(7, len(head) // 20)])
+                await asyncio.sleep(0)
+            await peer.send(PING[:9])
+            await asyncio.sleep(0)
+            await peer.send(PING[9:])
+        else:
+            await peer.send(head + PING)
+        if how == "half-closed":
+            peer.writer.write_eof()
+        for _ in range(3 if how == "pipelined" else 1):
+            assert await peer.value() == [1, "", "/c"]
+        if how == "half-closed":
+            assert await peer.closed()
+        else:
+            await peer.send(head + PING)
+            assert await peer.value() == [1, "", "/c"]
+
+
+@pytest.mark.parametrize("requests", [1, 3])
+@pytest.mark.parametrize("in_pieces", [False, True])
+async def test_a_client_that_closes_its_side_gets_its_answers(
+    requests: int, in_pieces: bool
+) -> None:
+    async with serving() as server, connected(server) as peer:
+        for _ in range(requests):
+            await peer.post(PING)
+            if in_pieces:
+                assert await peer.value() == [1, "", "/c"]
+        peer.writer.write_eof()
+        if not in_pieces:
+            for _ in range(requests):
+                assert await peer.value() == [1, "", "/c"]
+        assert await peer.closed()
+        assert await still_serves(server)
+
+
+async def test_a_client_that_closes_its_side_waits_for_a_slow_method() -> None:
+    begun, go = asyncio.Event(), asyncio.Event()
+
+    async def slow(caller_id: str) -> Any:
+        begun.set()
+        await go.wait()
+        return [1, "", caller_id]
+
+    async with serving({"slow": slow}) as server, connected(server) as peer:
+        await peer.post(encode_call("slow", ["/c"]))
+        peer.writer.write_eof()
+        await begun.wait()
+        go.set()
+        assert await peer.value() == [1, "", "/c"]
+        assert await peer.closed()
+
+
+@pytest.mark.parametrize(
+    "half",
+    [b"", b"POST / HT", b"POST / HTTP/1.1\r\nHost: x\r\n", b"POST / HTTP/1.1\n", b"\n"],
+)
+async def test_a_client_that_closes_its_side_too_early_is_closed(half: bytes) -> None:
+    async with serving(xmlrpc_timeout=3600) as server, connected(server) as peer:
+        await peer.send(half)
+        peer.writer.write_eof()
+        assert await peer.closed()
+
+
+async def test_half_a_body_is_closed_with_its_client() -> None:
+    async with serving(xmlrpc_timeout=3600) as server, connected(server) as peer:
+        await peer.post(PING[:10], f"Content-Length: {len(PING)}")
+        peer.writer.write_eof()
+        assert await peer.closed()
+
+
+@pytest.mark.parametrize("line", [b"x" * 30_000 + b"\r\n", b"x", b"X: y\r\n", b"X: y\n"])
+async def test_a_head_without_an_end_is_refused(line: bytes) -> None:
+    async with serving(xmlrpc_timeout=3600) as server, connected(server) as peer:
+        with contextlib.suppress(ConnectionError):
+            await peer.send(b"POST / HTTP/1.1\r\nX: ")
+            for _ in range(100_000 // len(line)):
+                await peer.send(line)
+        with contextlib.suppress(ConnectionError):
+            status, _, _ = await peer.answer()
+            assert status in (400, 431)
+            assert await peer.closed()
+        assert await still_serves(server)
 
 
 async def test_many_half_sent_requests_hold_nobody() -> None:
