@@ -15,7 +15,7 @@ from aioros1.connection import ConnectionInfo
 from aioros1.core.address import Address
 from aioros1.core.awaited import awaits_caller
 from aioros1.core.context import Context
-from aioros1.core.hints import similar_node
+from aioros1.core.obstacles import similar_node
 from aioros1.core.registration import Terms
 from aioros1.core.registrations import Registrations
 from aioros1.core.role import Role

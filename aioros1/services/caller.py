@@ -14,7 +14,7 @@ from typing import Any, Generic, TypeVar, cast
 from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
-from aioros1.core.hints import Hint, similar_service
+from aioros1.core.obstacles import Hint, similar_service
 from aioros1.core.role import Role
 from aioros1.errors import (
     ClosedError,

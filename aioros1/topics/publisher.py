@@ -11,7 +11,7 @@ from aioros1._public import public
 from aioros1.clock.timer import Timer
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
-from aioros1.core.hints import Hint
+from aioros1.core.obstacles import Hint
 from aioros1.core.role import Role
 from aioros1.errors import ClosedError, SerializationError
 from aioros1.hints import check_takes

@@ -13,7 +13,7 @@ from typing import Any, Generic, Self, TypeVar
 from aioros1._public import public
 from aioros1.connection import ConnectionInfo
 from aioros1.core.context import Context
-from aioros1.core.hints import Hint
+from aioros1.core.obstacles import Hint
 from aioros1.core.role import Role
 from aioros1.errors import DeserializationError
 from aioros1.idl import Message

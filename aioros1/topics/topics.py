@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from aioros1.core.context import Context
-from aioros1.core.hints import Hint
+from aioros1.core.obstacles import Hint
 from aioros1.errors import HandshakeError
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Stream
