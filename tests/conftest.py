@@ -76,6 +76,10 @@ def pytest_runtest_makereport(
     needs = any(item.get_closest_marker(name) for name in ("interop", "hosts"))
     if required and report.skipped and needs:
         report.outcome = "failed"
+    # xdist cannot tell what a test has logged that is no UTF-8.
+    report.sections = [
+        (name, text.encode(errors="backslashreplace").decode()) for name, text in report.sections
+    ]
     return report
 
 
@@ -94,16 +98,6 @@ def clean_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     """No test depends on the ROS that is, or is not, set up in the shell."""
     for name in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE", "ROS_IPV6"):
         monkeypatch.delenv(name, raising=False)
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Let a process of xdist tell what a test has logged that is no UTF-8."""
-    report = yield
-    report.sections = [
-        (name, text.encode(errors="backslashreplace").decode()) for name, text in report.sections
-    ]
-    return report
 
 
 @pytest.fixture(autouse=True)

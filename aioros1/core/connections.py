@@ -33,7 +33,7 @@ class Connections:
 
     def __init__(self, emit: Callable[[Event], None], header_bytes: int) -> None:
         self._emit = emit
-        self._links: dict[Link, tuple[str, ConnectionInfo]] = {}
+        self._links: dict[Link, tuple[str, ConnectionInfo, int]] = {}
         self._header_room = header_bytes
 
     def kept(self, header: dict[str, str]) -> dict[str, str]:
@@ -50,29 +50,30 @@ class Connections:
     @property
     def infos(self) -> tuple[ConnectionInfo, ...]:
         """Information about each connection, oldest first."""
-        return tuple(info for _, info in self._links.values())
+        return tuple(info for _, info, _ in self._links.values())
 
     def add(self, kind: str, link: Link, info: ConnectionInfo) -> None:
         """Add a connection that now carries messages. ``kind`` is the role's kind."""
-        self._links[link] = kind, info
-        self._header_room -= _size(info.header)
+        size = _size(info.header)
+        self._links[link] = kind, info, size
+        self._header_room -= size
         self._emit(PeerConnected(kind, info.name, info))
 
     def remove(self, link: Link, reason: str = "") -> None:
         """Remove a connection that has ended. Does nothing if it was removed before."""
         entry = self._links.pop(link, None)
         if entry is not None:
-            kind, info = entry
-            self._header_room += _size(info.header)
+            kind, info, size = entry
+            self._header_room += size
             self._emit(PeerDisconnected(kind, info.name, info, reason))
 
     def abort_at(self, host: str) -> None:
         """Close the connections of an address that this machine has lost. Nothing arrives
         there any more, not even the end of a connection."""
-        for link, (_, info) in tuple(self._links.items()):
+        for link, (_, info, _) in tuple(self._links.items()):
             if info.local[0] == host:
                 link.abort()
 
 
 def _size(header: Mapping[str, str]) -> int:
-    return sum(len(name) + len(value) + _FIELD for name, value in header.items())
+    return sum(map(len, header)) + sum(map(len, header.values())) + _FIELD * len(header)

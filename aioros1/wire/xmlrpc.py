@@ -118,7 +118,7 @@ def call_pieces(
     ]
     for index, value in enumerate(params):
         out.append("<param>")
-        for _ in _encoding_root(value, out, f"params[{index}]", max_depth):
+        for _ in _encode_root(value, out, f"params[{index}]", max_depth):
             yield "".join(out).encode()
             out.clear()
         out.append("</param>")
@@ -137,7 +137,7 @@ def response_pieces(
 ) -> Iterator[bytes]:
     """The document of :func:`encode_response` in pieces, as :func:`call_pieces` makes them."""
     out = ["<?xml version='1.0'?><methodResponse><params><param>"]
-    for _ in _encoding_root(value, out, what, max_depth):
+    for _ in _encode_root(value, out, what, max_depth):
         yield "".join(out).encode()
         out.clear()
     out.append("</param></params></methodResponse>")
@@ -149,7 +149,7 @@ def encode_fault(code: int, text: str) -> bytes:
     cannot carry become ``?``."""
     out = ["<?xml version='1.0'?><methodResponse><fault>"]
     fault = {"faultCode": code, "faultString": carriable(text)}
-    for _ in _encoding_root(fault, out, "fault", MAX_DEPTH):
+    for _ in _encode_root(fault, out, "fault", MAX_DEPTH):
         pass
     out.append("</fault></methodResponse>")
     return "".join(out).encode()
@@ -164,14 +164,27 @@ class _UnencodableError(Exception):
         self.place: list[str] = []
 
 
-def _encoding_root(value: Any, out: list[str], root: str, max_depth: int) -> Iterator[None]:
+def _encode_root(value: Any, out: list[str], root: str, max_depth: int) -> Iterator[None]:
+    """Write a value of a document, or return the steps that do."""
     try:
         more = _encode(value, out, max_depth)
-        if more is not None:
-            yield from more
     except _UnencodableError as bad:
-        place = root + "".join(reversed(bad.place))
-        raise bad.kind(f"{place}: {bad.text}") from None
+        raise _placed(bad, root) from None
+    return _NO_STEPS if more is None else _steps(more, root)
+
+
+_NO_STEPS: Iterator[None] = iter(())
+
+
+def _steps(more: Iterator[None], root: str) -> Iterator[None]:
+    try:
+        yield from more
+    except _UnencodableError as bad:
+        raise _placed(bad, root) from None
+
+
+def _placed(bad: _UnencodableError, root: str) -> Exception:
+    return bad.kind(f"{root}{''.join(reversed(bad.place))}: {bad.text}")
 
 
 def _encode(value: Any, out: list[str], depth: int) -> Iterator[None] | None:
