@@ -6,8 +6,6 @@ from typing import Annotated, TypeAlias
 
 from cyclopts import Parameter
 
-from aioros1.cli.serve import run
-
 __all__ = ["master"]
 
 
@@ -40,4 +38,6 @@ def master(
         The numeric address to listen on, if host does not say it: 127.0.0.1, or that of one
         interface.
     """
+    from aioros1.cli.serve import run  # here, as commands for definitions need no asyncio
+
     raise SystemExit(run(port=port, host=host, bind=bind, allow=allow))
