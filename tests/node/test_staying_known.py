@@ -274,6 +274,31 @@ async def test_a_blocked_loop_is_not_taken_for_a_lost_master():
         await master.kill()
 
 
+async def test_without_descriptors_nothing_is_said_about_the_master(make_node):
+    node = await make_node("node", heartbeat=None, host="127.0.0.1", **PLAIN)
+    held = []
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    spare = socket.socket()
+    highest = spare.fileno()
+    spare.close()
+    node._context.xmlrpc.close_idle()
+    await asyncio.sleep(0)
+    try:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (highest + 4, limits[1]))
+        try:
+            while True:
+                held.append(socket.socket())
+        except OSError:
+            pass
+        with pytest.raises(aioros1.MasterUnreachable, match="Too many open files") as refused:
+            await node.get_param("/gain")
+    finally:
+        for sock in held:
+            sock.close()
+        resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+    assert "no master is there" not in str(refused.value)
+
+
 async def test_no_descriptors_for_a_moment(make_node, caplog):
     observer = await make_node("observer", heartbeat=None)
     node = await make_node("node", heartbeat=0.02, host="127.0.0.1", **PLAIN)
