@@ -70,8 +70,14 @@ def pytest_asyncio_loop_factories(
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Where everything has to be installed, a test that is skipped for lack of it fails."""
+    """Where everything has to be installed, a test that is skipped for lack of it fails.
+
+    What a test has logged that is no UTF-8 is escaped, so that a process of xdist can tell it.
+    """
     report = yield
+    report.sections = [
+        (name, text.encode(errors="backslashreplace").decode()) for name, text in report.sections
+    ]
     required = os.environ.get("AIOROS1_REQUIRE_INTEROP") == "1"
     needs = any(item.get_closest_marker(name) for name in ("interop", "hosts"))
     if required and report.skipped and needs:

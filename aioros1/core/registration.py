@@ -194,14 +194,15 @@ class Registration:
                 self._begin().add_done_callback(self._pushed)
 
     def confirm(self) -> None:
-        """Register once more what is registered, in case the master has forgotten it."""
+        """Register once more what is registered, with the next heartbeat, in case the master
+        has forgotten it."""
         if self.is_settled and self._is_at_master:
             self._is_at_master = None
             self._is_quiet = True
-            self.push()
 
     def forget(self) -> None:
         """Assume that the master may have forgotten the entry."""
+        self._is_quiet = False
         if self._work is not None:
             self._is_outdated = True
         elif self._is_at_master:
@@ -314,12 +315,12 @@ class Registration:
         if failure is None:
             self._complaint = ""
         self._rest(failure)
-        is_news = not (self._is_quiet and was_established)
-        self._is_quiet = False
         if self._is_outdated:
             self._is_outdated = False
             self._is_at_master = None
         elif wanted and failure is None:
+            is_news = not (self._is_quiet and was_established)
+            self._is_quiet = False
             self._is_established = True
             if is_news:
                 terms.emit(RoleRegistered(self.kind, self.name))

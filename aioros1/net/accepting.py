@@ -8,7 +8,6 @@ accepted while it is closed, it forgets.
 from __future__ import annotations
 
 import asyncio
-import errno
 import logging
 import socket
 from collections.abc import Callable
@@ -17,6 +16,7 @@ from functools import partial
 from typing import Any
 
 from aioros1.net.admission import Admission
+from aioros1.net.connecting import is_exhausted
 
 __all__ = ["ListeningSocket"]
 
@@ -25,8 +25,6 @@ _BATCH = 64
 
 _PAUSE = 0.5
 """Seconds until it tries again when the system has no room for a connection."""
-
-_NO_ROOM = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 
 
 class ListeningSocket:
@@ -79,7 +77,7 @@ class ListeningSocket:
             try:
                 conn, address = self._sock.accept()
             except OSError as error:
-                if error.errno in _NO_ROOM:
+                if is_exhausted(error):
                     self._wait_for_room(error)
                 # Else there are no more, or this one has gone again; or its network is down.
                 return

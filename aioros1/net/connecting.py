@@ -11,11 +11,14 @@ from typing import TypeVar
 
 from aioros1.net.hosts import all_loopback, resolve
 
-__all__ = ["connect", "reason_of"]
+__all__ = ["connect", "is_exhausted", "reason_of"]
 
 P = TypeVar("P", bound=asyncio.BaseProtocol)
 
 _Address = tuple[socket.AddressFamily, str]
+
+# What the system answers when this process, or the whole machine, has none left.
+_EXHAUSTED = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 
 STAGGER = 0.25
 """Seconds before the next address is tried in parallel, as RFC 8305 recommends."""
@@ -138,3 +141,12 @@ def reason_of(error: OSError) -> str:
     if number is not None and number > 0:  # those of gaierror are negative, and its own
         return os.strerror(number)
     return error.strerror or str(error)
+
+
+def is_exhausted(error: BaseException | None) -> bool:
+    """Whether this side had no descriptor or memory left, which says nothing of the other."""
+    while error is not None:
+        if isinstance(error, OSError) and error.errno in _EXHAUSTED:
+            return True
+        error = error.__context__  # its cause is hidden from users
+    return False

@@ -9,12 +9,12 @@ address.
 from __future__ import annotations
 
 import asyncio
-import errno
 from collections.abc import Awaitable, Callable
 
 from aioros1.core.context import Context
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
 from aioros1.events import MasterLost, MasterRestarted
+from aioros1.net.connecting import is_exhausted
 from aioros1.node.own_address import OwnAddress
 from aioros1.node.roll_call import RollCall
 from aioros1.xmlrpc.client import is_judgement
@@ -25,9 +25,6 @@ __all__ = ["Heartbeat"]
 _LATE = 0.5
 """Seconds by which a beat is late when the event loop was blocked. Others may have taken the
 node for dead meanwhile."""
-
-# What the system answers when this process, or the whole machine, has none left.
-_EXHAUSTED = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 
 
 class Heartbeat:
@@ -133,7 +130,7 @@ class Heartbeat:
     def _missed(self, error: MasterError) -> None:
         """Act on a beat that the master did not answer."""
         context = self._context
-        if _is_exhausted(error):
+        if is_exhausted(error):
             # This says nothing about the master.
             self._complain(f"cannot ask the master: {error}")
             self._roll_call.suspect()
@@ -220,12 +217,3 @@ def _is_another(known: tuple[int, str] | None, identity: tuple[int, str]) -> boo
         return True
     # roscore sets the id a moment after its master answers.
     return known[1] not in ("", identity[1])
-
-
-def _is_exhausted(error: BaseException | None) -> bool:
-    """Whether this side had no descriptor or memory left to ask."""
-    while error is not None:
-        if isinstance(error, OSError) and error.errno in _EXHAUSTED:
-            return True
-        error = error.__context__  # its cause is hidden from users
-    return False

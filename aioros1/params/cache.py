@@ -29,24 +29,22 @@ class ParamCache:
         """Return the value of ``key``, which is resolved. Raises as
         :meth:`aioros1.Node.get_param` does."""
         subscriber = self._followed.pop(key, None)
+        surplus = None
         if subscriber is None or not subscriber.is_open:
-            subscriber = await self._follow(key)
+            subscriber = await self._subscribe(key, ..., keeps_updates=False)
+            # Another task may have done the same in the meantime.
+            other = self._followed.pop(key, None)
+            if other is not None and other.is_open:
+                subscriber, surplus = other, subscriber
+            elif len(self._followed) >= _MAX_KEYS:
+                surplus = self._followed.pop(next(iter(self._followed)))
+        # Before anything is waited for: what is followed and not here is followed for ever.
         self._followed[key] = subscriber
+        if surplus is not None:
+            await surplus.close()
         try:
             return subscriber.value
         except KeyError:
             if default is ...:
                 raise
             return default
-
-    async def _follow(self, key: str) -> ParamSubscriber:
-        subscriber = await self._subscribe(key, ..., keeps_updates=False)
-        # Another task may have done the same in the meantime.
-        other = self._followed.pop(key, None)
-        if other is not None and other.is_open:
-            self._followed[key] = other
-            await subscriber.close()
-            return other
-        while len(self._followed) >= _MAX_KEYS:
-            await self._followed.pop(next(iter(self._followed))).close()
-        return subscriber

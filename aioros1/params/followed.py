@@ -234,9 +234,9 @@ class FollowedParam(Shared[Following]):
         if not is_all:
             self._tell(self.name, value)
             # Nobody said so, and who says so now is late. If the master no longer knows that we
-            # follow it, tell it again, with the next heartbeat.
+            # follow it, tell it again.
             self._doubt_notices()
-            self.registration.forget()
+            self.registration.confirm()
         return is_other or not is_all
 
     # at the master

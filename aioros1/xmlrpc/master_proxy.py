@@ -9,6 +9,7 @@ from urllib.parse import urlsplit
 
 from aioros1._public import public
 from aioros1.errors import MasterError, MasterUnreachable, NodeNotFound
+from aioros1.net.connecting import is_exhausted
 from aioros1.xmlrpc.client import (
     XmlRpcClient,
     as_it_is,
@@ -90,6 +91,8 @@ class MasterProxy:
         # Only then was nothing sent; the other errors are more special ones.
         if type(error) is not ConnectionError:
             return MasterUnreachable(str(error))
+        if is_exhausted(error):
+            return MasterUnreachable(str(error), was_sent=False)
         advice = (
             "no master is there: start one with `aioros1 master`, set ROS_MASTER_URI to the one "
             'you have, or let the node wait for it with without_master="wait"'

@@ -183,7 +183,7 @@ class NodeProxy:
         try:
             await self.call("shutdown", reason)
         except PeerUnreachable as error:
-            if not isinstance(error.__cause__, ConnectionResetError):
+            if not isinstance(error.__context__, ConnectionResetError):
                 raise
 
     async def get_pid(self) -> int:

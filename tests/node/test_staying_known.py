@@ -133,9 +133,20 @@ async def test_a_single_role_that_is_missing(make_node, role):
     assert watched.seen == []
 
 
-async def test_a_followed_parameter_alone(make_node, monkeypatch):
-    """No master tells who follows what, so it is followed once more now and then."""
-    monkeypatch.setattr("aioros1.node.roll_call._CONFIRM", 0.05)
+@pytest.mark.parametrize("pause", [0.05, 1000.0])
+async def test_a_followed_parameter_alone(make_node, monkeypatch, pause):
+    """No master tells who follows what, so it is followed once more now and then, and when a
+    value was not announced."""
+    monkeypatch.setattr("aioros1.node.roll_call._CONFIRM", pause)
+    asked = []
+    follow = aioros1.MasterProxy.subscribe_param
+
+    async def counted(master, key, uri):
+        value = await follow(master, key, uri)
+        asked.append(key)
+        return value
+
+    monkeypatch.setattr(aioros1.MasterProxy, "subscribe_param", counted)
     observer = await make_node("observer", heartbeat=None)
     node = await make_node("node", heartbeat=0.02, **PLAIN)
     events = node.events()
@@ -144,6 +155,7 @@ async def test_a_followed_parameter_alone(make_node, monkeypatch):
     await master.unsubscribe_param("/gain", node.uri)
     await observer.set_param("/gain", 7)
     assert await psub.wait_for(lambda value: value == 7, timeout=30) == 7
+    await until(lambda: _true(len(asked) > 1))
     await node.close()
     registered = [event async for event in events if isinstance(event, aioros1.RoleRegistered)]
     assert len(registered) == 4  # being followed once more is no news
@@ -260,6 +272,31 @@ async def test_a_blocked_loop_is_not_taken_for_a_lost_master():
             assert watched.seen == []
     finally:
         await master.kill()
+
+
+async def test_without_descriptors_nothing_is_said_about_the_master(make_node):
+    node = await make_node("node", heartbeat=None, host="127.0.0.1", **PLAIN)
+    held = []
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    spare = socket.socket()
+    highest = spare.fileno()
+    spare.close()
+    node._context.xmlrpc.close_idle()
+    await asyncio.sleep(0)
+    try:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (highest + 4, limits[1]))
+        try:
+            while True:
+                held.append(socket.socket())
+        except OSError:
+            pass
+        with pytest.raises(aioros1.MasterUnreachable, match="Too many open files") as refused:
+            await node.get_param("/gain")
+    finally:
+        for sock in held:
+            sock.close()
+        resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+    assert "no master is there" not in str(refused.value)
 
 
 async def test_no_descriptors_for_a_moment(make_node, caplog):

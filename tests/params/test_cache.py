@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import random
 import tracemalloc
 
 import pytest
@@ -61,6 +62,32 @@ async def test_the_cache_follows_only_the_keys_that_were_asked_for_last(pair):
         async with asyncio.timeout(30):
             while await follower.get_param_cached(key) != 2:
                 await asyncio.sleep(0.001)
+
+
+async def test_the_cache_follows_no_more_when_many_ask_at_once_and_some_give_up(pair):
+    setter, follower = pair
+    keys = [f"/many/k{number}" for number in range(300)]
+    await setter.set_param("/many", {key.rpartition("/")[2]: 1 for key in keys})
+
+    async def ask(key, patience=None):
+        try:
+            async with asyncio.timeout(patience):
+                assert await follower.get_param_cached(key) == 1
+        except TimeoutError:
+            pass
+
+    def followed():
+        return {role for role in follower.roles if role.name.startswith("/many/")}
+
+    chance = random.Random(1)
+    for _ in range(2):
+        await asyncio.gather(*(ask(chance.choice(keys)) for _ in range(900)))
+    for key in keys:
+        await ask(key, chance.uniform(0, 0.003))
+    async with asyncio.timeout(30):
+        while len(followed()) > 256:
+            await asyncio.sleep(0.01)
+    assert len({role.name for role in followed()}) == len(followed())
 
 
 async def test_a_cached_parameter_whose_follower_was_closed_is_followed_again(pair):

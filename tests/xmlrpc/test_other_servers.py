@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from aioros1.errors import MasterError, PeerError
+from aioros1.errors import MasterError, PeerError, PeerUnreachable
 from aioros1.wire.xmlrpc import XmlRpcError, encode_response
 from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.master_proxy import MasterProxy
 from aioros1.xmlrpc.node_proxy import BusInfo, NodeProxy
 
-from .scripted import answering, client, http, scripted
+from .scripted import answering, client, http, request, scripted
 
 
 def response(*values: str) -> bytes:
@@ -167,3 +167,23 @@ async def test_topics_of_any_shape() -> None:
         ("/a", "std_msgs/String"),
         ("/b", "std_msgs/String"),
     ]
+
+
+async def test_a_node_that_ends_without_answering():
+    """As rospy does, when it is faster to end than to answer."""
+    asked = []
+
+    async def end(reader, writer):
+        asked.append(await request(reader))
+
+    async with scripted(end) as uri, client() as http_client:
+        await NodeProxy(http_client, uri, "/caller").shutdown("enough")
+    assert len(asked) == 1
+
+
+async def test_a_node_that_is_not_there_cannot_be_told_to_end():
+    async with scripted(lambda reader, writer: None) as uri:
+        pass
+    async with client() as http_client:
+        with pytest.raises(PeerUnreachable):
+            await NodeProxy(http_client, uri, "/caller").shutdown("enough")
