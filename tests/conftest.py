@@ -70,8 +70,14 @@ def pytest_asyncio_loop_factories(
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Where everything has to be installed, a test that is skipped for lack of it fails."""
+    """Where everything has to be installed, a test that is skipped for lack of it fails.
+
+    Also, let a process of xdist tell what a test has logged that is no UTF-8.
+    """
     report = yield
+    report.sections = [
+        (name, text.encode(errors="backslashreplace").decode()) for name, text in report.sections
+    ]
     required = os.environ.get("AIOROS1_REQUIRE_INTEROP") == "1"
     needs = any(item.get_closest_marker(name) for name in ("interop", "hosts"))
     if required and report.skipped and needs:
@@ -94,16 +100,6 @@ def clean_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     """No test depends on the ROS that is, or is not, set up in the shell."""
     for name in ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE", "ROS_IPV6"):
         monkeypatch.delenv(name, raising=False)
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Let a process of xdist tell what a test has logged that is no UTF-8."""
-    report = yield
-    report.sections = [
-        (name, text.encode(errors="backslashreplace").decode()) for name, text in report.sections
-    ]
-    return report
 
 
 @pytest.fixture(autouse=True)
