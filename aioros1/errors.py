@@ -160,14 +160,26 @@ class MasterError(RosError):
     ``code`` is 0 or -1 from the reply, or the code of an XML-RPC fault. ``status`` describes the
     request and its recipient, and contains the master's own text. ``is_refusal`` is False when
     the master did not judge the request: there was a fault, or no valid answer of a master.
+    ``is_fault`` is True for a fault, and ``is_answer`` if [code, status, value] came, whatever
+    it says: a fault may come from any server, and this only from a master.
     """
 
-    def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
+    def __init__(
+        self,
+        code: int,
+        status: str,
+        *,
+        is_refusal: bool = True,
+        is_fault: bool = False,
+        is_answer: bool = False,
+    ) -> None:
         super().__init__(code, status)
         status = printable(status, _LONGEST)
         self.code = code
         self.status = status
         self.is_refusal = is_refusal
+        self.is_fault = is_fault
+        self.is_answer = is_answer or is_refusal
 
     def __str__(self) -> str:
         return self.in_short
@@ -215,7 +227,15 @@ class NodeNotFound(MasterError, LookupError):
 class PeerError(RosError):
     """Another node refused a request of the slave API; like :class:`MasterError`."""
 
-    def __init__(self, code: int, status: str, *, is_refusal: bool = True) -> None:
+    def __init__(
+        self,
+        code: int,
+        status: str,
+        *,
+        is_refusal: bool = True,
+        is_fault: bool = False,
+        is_answer: bool = False,
+    ) -> None:
         super().__init__(code, status)
         status = printable(status, _LONGEST)
         self.code = code
@@ -225,6 +245,10 @@ class PeerError(RosError):
         self.is_refusal = is_refusal
         """False when the node did not judge the request: there was a fault, or no valid answer
         of a node."""
+        self.is_fault = is_fault
+        """Whether there was a fault."""
+        self.is_answer = is_answer or is_refusal
+        """Whether the node has answered [code, status, value], whatever it says."""
 
     def __str__(self) -> str:
         return f"{self.status} (code {self.code})"
@@ -232,13 +256,18 @@ class PeerError(RosError):
 
 @public
 class PeerUnreachable(PeerError, ConnectionError):
-    """No node answers at the node's URI."""
+    """No node answers at the node's URI.
 
-    def __init__(self, status: str) -> None:
+    ``was_lost`` is True if the connection was lost before the answer came. The node may have
+    done what it was asked for.
+    """
+
+    def __init__(self, status: str, *, was_lost: bool = False) -> None:
         super().__init__(-1, status, is_refusal=False)
+        self.was_lost = was_lost
 
-    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
-        return type(self), (self.status,)
+    def __reduce__(self) -> tuple[type[Self], tuple[str], dict[str, object]]:
+        return type(self), (self.status,), vars(self)
 
     def __str__(self) -> str:
         return self.status

@@ -82,10 +82,6 @@ def pytest_runtest_makereport(
     needs = any(item.get_closest_marker(name) for name in ("interop", "hosts"))
     if required and report.skipped and needs:
         report.outcome = "failed"
-    # xdist cannot tell what a test has logged that is no UTF-8.
-    report.sections = [
-        (name, text.encode(errors="backslashreplace").decode()) for name, text in report.sections
-    ]
     return report
 
 

@@ -31,7 +31,6 @@ import aioros1
         ("__hostname:=my robot", ValueError, ["'my robot'", "'robot.local' or '10.0.0.2'"]),
         ("scan:=a b", aioros1.InvalidNameError, ["'a b'", "name to remap to"]),
         ("scan:=b:=c", aioros1.InvalidNameError, ["'b:=c'", "name to remap to"]),
-        ("scan:=", aioros1.InvalidNameError, ["'scan'", "expected a name"]),
     ],
 )
 def test_words_of_a_command_line(word, error, parts):
@@ -124,8 +123,10 @@ def test_words_and_variables_that_are_empty_say_nothing(monkeypatch, words):
     assert (node.name, node.master_uri) == ("/demo", "http://localhost:11311")
 
 
-async def test_an_empty_parameter_is_the_empty_text(make_node):
-    node = await make_node(argv=["_text:=", "_quoted:='7'", "_map:={a: [1, 2.5]}"])
+async def test_an_empty_parameter_has_to_be_quoted(make_node):
+    """An assignment of nothing is ignored, as in rospy."""
+    words = ["_none:=", "_text:=''", "_quoted:='7'", "_map:={a: [1, 2.5]}"]
+    node = await make_node(argv=words)
     assert await node.get_param("~") == {"text": "", "quoted": "7", "map": {"a": [1, 2.5]}}
 
 
@@ -239,6 +240,21 @@ async def test_a_web_server_that_is_no_master(status, body, kind, why):
             assert str(caught.value).count(uri) == 1
             assert why in str(caught.value)
             assert not isinstance(caught.value, aioros1.MasterUnreachable)
+
+
+async def test_a_web_server_is_no_master_while_an_error_is_handled():
+    """What the application is busy with says nothing about an answer."""
+    async with (
+        web_server(200, NO_TRIPLE, "text/xml") as uri,
+        aioros1.Node("demo", master_uri=uri, host="localhost", heartbeat=None) as node,
+    ):
+        try:
+            raise KeyError("of the application")
+        except KeyError:
+            with pytest.raises(aioros1.MasterError) as caught:
+                await node.master.ping()
+        assert node.master.last_seen is None
+        assert not caught.value.is_answer
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "no-such-host.invalid"])

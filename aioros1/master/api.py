@@ -11,15 +11,18 @@ import os
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from aioros1.master.parameters import ParameterTree, holds_nil, param_updates, subscription_key
+from aioros1.master.parameters import (
+    MAX_NAME,
+    ParameterTree,
+    holds_nil,
+    param_updates,
+    subscription_key,
+)
 from aioros1.master.registry import Answer, Changed, Notification, Registry
 from aioros1.names import resolve_from
 from aioros1.wire.http import MAX_URI
 
 __all__ = ["MasterApi"]
-
-MAX_NAME = 1_024
-"""Characters of a name or a key."""
 
 _Check = Callable[[str, Any, str], Any]
 """Takes a parameter's name, its value and the caller's name; returns the value to use."""
@@ -181,7 +184,10 @@ class MasterApi:
         return 1, f"Found [{found}]", found
 
     def _param_names(self, caller_id: str) -> Answer:
-        return 1, "Parameter names", self._parameters.names()
+        try:
+            return 1, "Parameter names", self._parameters.names()
+        except ValueError as error:
+            return -1, f"ERROR: {error}", []
 
     def _subscribe_param(self, caller_id: str, api: str, key: str) -> Answer:
         if not self._has_room(caller_id, subscription_key(key)):

@@ -14,10 +14,20 @@ from aioros1.names import is_global, is_private, join
 from aioros1.wire.xmlrpc import MAX_DEPTH
 from aioros1.wire.xmlrpc_size import Size
 
-__all__ = ["ParamUpdate", "ParameterTree", "holds_nil", "param_updates", "subscription_key"]
+__all__ = [
+    "MAX_NAME",
+    "ParamUpdate",
+    "ParameterTree",
+    "holds_nil",
+    "param_updates",
+    "subscription_key",
+]
 
 
 _NAMESPACE = 60  # bytes around its name
+
+MAX_NAME = 1_024
+"""Characters of a name or a key."""
 
 
 class ParamUpdate(NamedTuple):
@@ -35,7 +45,8 @@ class ParameterTree:
     """All the parameters of a master.
 
     ``max_depth`` bounds how deep namespaces, arrays and structs are nested: the whole tree
-    has to fit an answer that peers can read. ``max_bytes`` and ``max_values`` bound all of it.
+    has to fit an answer that peers can read. ``max_bytes`` and ``max_values`` bound all of it,
+    and ``max_names`` the bytes of all names together: each holds those of its namespaces.
     """
 
     def __init__(
@@ -44,8 +55,10 @@ class ParameterTree:
         max_depth: int = MAX_DEPTH - 1,
         max_bytes: int = 256 << 20,
         max_values: int = 500_000,
+        max_names: int = 64 << 20,
     ) -> None:
         self._root: dict[str, Any] = {}
+        self._max_names = max_names
         self._max_depth = max_depth
         self._max_bytes = max_bytes
         self._max_values = max_values
@@ -127,8 +140,19 @@ class ParameterTree:
         return None
 
     def names(self) -> list[str]:
-        """The full names of all parameters; namespaces are not among them."""
-        return list(_names("", self._root))
+        """The full names of all parameters; namespaces are not among them, nor names that are
+        too long to ask for.
+
+        Raises :class:`ValueError` if they are too many for an answer.
+        """
+        names: list[str] = []
+        room = self._max_names
+        for name in _names("", self._root):
+            room -= len(name)
+            if room < 0:
+                raise ValueError(f"the names have more than {self._max_names} characters together")
+            names.append(name)
+        return names
 
     def _make_room(self, parts: list[str], size: Size) -> None:
         size.values += len(parts)
@@ -224,6 +248,8 @@ def _descend(value: Any, path: str) -> Any:
 
 def _names(namespace: str, node: Mapping[str, Any]) -> Iterator[str]:
     for name, value in node.items():
+        if len(namespace) + len(name) >= MAX_NAME:
+            continue
         full = f"{namespace}/{name}"
         if isinstance(value, dict):
             yield from _names(full, value)

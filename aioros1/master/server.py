@@ -129,6 +129,7 @@ class Master:
             max_depth=limits.xmlrpc_depth - 1,
             max_bytes=limits.parameter_bytes,
             max_values=limits.parameter_values,
+            max_names=limits.xmlrpc_bytes,
         )
         given = {"/run_id": self._run_id, **_ROSCORE_PARAMS, **(params or {})}
         for key, value in given.items():

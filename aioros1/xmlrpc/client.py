@@ -11,7 +11,7 @@ from collections.abc import Callable, Generator, Iterator
 from threading import get_ident
 from typing import Any, TypeVar
 
-from aioros1.errors import ClosedError, MasterError, MasterUnreachable, PeerError, PeerUnreachable
+from aioros1.errors import ClosedError, MasterError, PeerError
 from aioros1.net.http_client import HttpClient, server_at
 from aioros1.net.loop_state import LoopState, loop_state
 from aioros1.net.turns import Turn
@@ -35,7 +35,6 @@ __all__ = [
     "XmlRpcClient",
     "as_it_is",
     "call_triple",
-    "is_answer",
     "is_judgement",
 ]
 
@@ -180,19 +179,9 @@ class XmlRpcClient:
         await self._http.close()
 
 
-def is_answer(error: MasterError | PeerError) -> bool:
-    """Whether a master or node has answered [code, status, value], whatever it says. A fault
-    may come from any server."""
-    if isinstance(error, MasterUnreachable | PeerUnreachable):
-        return False
-    origin = error.__context__  # None if the answer had another form
-    is_readable = origin is not None and not isinstance(origin, XmlRpcError | XmlRpcFault)
-    return error.is_refusal or is_readable
-
-
 def is_judgement(error: MasterError | PeerError) -> bool:
     """Whether the other side has judged the request: it refused, or raised a fault."""
-    return error.is_refusal or isinstance(error.__context__, XmlRpcFault)
+    return error.is_refusal or error.is_fault
 
 
 def _appending(found: list[bytes], pieces: Iterator[bytes]) -> Generator[None, None, None]:
@@ -246,7 +235,7 @@ async def call_triple(
         )
     except XmlRpcFault as fault:
         what = f"{place}: {printable(fault.text)}"
-        raise refused(fault.code, what, is_refusal=False) from None
+        raise refused(fault.code, what, is_refusal=False, is_fault=True) from None
     except XmlRpcError as error:
         whose = "master" if refused is MasterError else "node"
         what = f"{error}; expected the answer of a ROS {whose}"
@@ -268,7 +257,7 @@ async def call_triple(
         return read(value)
     except (TypeError, ValueError, LookupError, AttributeError) as error:
         what = f"{place}: cannot read {_shown(value)}: {printable(error)}"
-        raise refused(-1, what, is_refusal=False) from None
+        raise refused(-1, what, is_refusal=False, is_answer=True) from None
 
 
 def _shown(answer: Any) -> str:

@@ -10,12 +10,7 @@ from urllib.parse import urlsplit
 from aioros1._public import public
 from aioros1.errors import MasterError, MasterUnreachable, NodeNotFound
 from aioros1.net.connecting import is_exhausted
-from aioros1.xmlrpc.client import (
-    XmlRpcClient,
-    as_it_is,
-    call_triple,
-    is_answer,
-)
+from aioros1.xmlrpc.client import XmlRpcClient, as_it_is, call_triple
 
 __all__ = ["MasterProxy", "SystemState", "TopicType", "identify", "topic_types"]
 
@@ -81,7 +76,7 @@ class MasterProxy:
                 any_path=True,  # the user chose this URI
             )
         except MasterError as error:
-            if is_answer(error):
+            if error.is_answer:
                 self.last_seen = time.monotonic()
             raise
         self.last_seen = time.monotonic()
@@ -220,13 +215,13 @@ async def identify(master: MasterProxy) -> int:
     except MasterUnreachable:
         raise
     except MasterError as error:
-        if is_answer(error):
+        if error.is_answer:
             return 0
         for method, *params in (("getUri",), ("lookupNode", master.caller_id)):
             try:
                 await master.call(method, *params)
             except MasterError as another:
-                if not is_answer(another):
+                if not another.is_answer:
                     continue
             return 0
         raise

@@ -183,7 +183,7 @@ class NodeProxy:
         try:
             await self.call("shutdown", reason)
         except PeerUnreachable as error:
-            if not isinstance(error.__context__, ConnectionResetError):
+            if not error.was_lost:
                 raise
 
     async def get_pid(self) -> int:
@@ -275,4 +275,4 @@ def _received(row: Any) -> SubscribeConnection:
 
 
 def _unreachable(method: str, error: OSError) -> PeerUnreachable:
-    return PeerUnreachable(str(error))
+    return PeerUnreachable(str(error), was_lost=isinstance(error, ConnectionResetError))

@@ -131,3 +131,17 @@ async def test_a_namespace_of_large_parameters_arrives_whole() -> None:
         results = await client.call(master.uri, "system.multicall", [call] * 3, timeout=60)
         assert [each[0][2] for each in results] == [text] * 3
         await client.close()
+
+
+async def test_a_small_struct_with_huge_names_does_not_stop_the_master() -> None:
+    leaves: dict[str, Any] = {str(number): 1 for number in range(5_000)}
+    value: Any = leaves
+    for _ in range(60):
+        value = {"k" * 100_000: value}
+    async with Master("127.0.0.1", port=0, rosout=False) as master:
+        client = XmlRpcClient()
+        assert (await client.call(master.uri, "setParam", "/a", "/p", value, timeout=60))[0] == 1
+        names = (await client.call(master.uri, "getParamNames", "/a", timeout=60))[2]
+        assert "/run_id" in names
+        assert max(map(len, names)) <= 1024
+        await client.close()

@@ -220,3 +220,23 @@ def test_the_whole_tree_is_bounded_and_what_is_replaced_makes_room() -> None:
     tree.set("/a/b/c", list(range(20)))
     tree.set("/", {})
     tree.set("/text", "x" * 8_000)
+
+
+def test_names_that_nobody_can_ask_for_are_not_listed() -> None:
+    """Each name repeats those of its namespaces: a small struct may have huge names."""
+    tree = ParameterTree()
+    value = {"b" * 500: {"c" * 520: 1, "d" * 521: 2}, "e" * 1021: 3, "f" * 1022: {"g": 4}}
+    tree.set("/a", value)
+    assert sorted(map(len, tree.names())) == [1024, 1024]
+    assert tree.get("/a") == value
+
+
+def test_all_names_together_are_bounded() -> None:
+    tree = ParameterTree(max_names=10)
+    tree.set("/a", {"bcd": 1})
+    assert tree.names() == ["/a/bcd"]
+    tree.set("/a/e", 1)
+    assert sorted(tree.names()) == ["/a/bcd", "/a/e"]
+    tree.set("/f", 1)
+    with pytest.raises(ValueError, match="more than 10 characters together"):
+        tree.names()

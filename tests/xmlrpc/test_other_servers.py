@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import gzip
 from typing import Any
 
@@ -74,6 +75,22 @@ async def test_an_answer_that_refuses(body: bytes, code: int) -> None:
     async with client() as ours, scripted(answering(http(body))) as uri:
         with pytest.raises(MasterError):
             await MasterProxy(ours, uri, "/me").get_pid()
+
+
+async def test_a_node_that_ends_instead_of_answering() -> None:
+    """rospy does, when it is told to shut down."""
+
+    async def end(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        await request(reader)
+
+    async with client() as ours, scripted(end) as uri:
+        await NodeProxy(ours, uri, "/me").shutdown("enough")
+        with pytest.raises(PeerUnreachable, match="connection lost") as caught:
+            await NodeProxy(ours, uri, "/me").get_pid()
+        assert caught.value.was_lost
+    async with client() as ours:
+        with pytest.raises(PeerUnreachable, match="cannot connect"):
+            await NodeProxy(ours, uri, "/me").shutdown("enough")
 
 
 # gzip that nobody asked for
