@@ -364,7 +364,7 @@ def decoding_call(
     chunks: Sequence[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
 ) -> Generator[None, None, tuple[str, tuple[Any, ...]]]:
     """Read a document that came in ``chunks`` as :func:`decode_call` does, in steps of
-    :data:`PIECE` bytes, and return the same."""
+    ``PIECE`` bytes, and return the same."""
     document = yield from reading_document(chunks, "methodCall", max_depth, max_values)
     if document.method is None:
         raise XmlRpcError("the call has no methodName")
@@ -393,7 +393,7 @@ def decoding_response(
     chunks: Sequence[bytes], *, max_depth: int = MAX_DEPTH, max_values: int = MAX_VALUES
 ) -> Generator[None, None, Any]:
     """Read a document that came in ``chunks`` as :func:`decode_response` does, in steps of
-    :data:`PIECE` bytes, and return the same."""
+    ``PIECE`` bytes, and return the same."""
     document = yield from reading_document(
         chunks, "methodResponse", max_depth, max_values, wide=True
     )
