@@ -35,7 +35,7 @@ class Contact:
         log: LibraryLog,
         pause: Callable[[float], Awaitable[None]],
     ) -> None:
-        self.policy = policy
+        self.policy: WithoutMaster = policy
         """The option ``without_master``."""
         self._master_uri = master_uri
         self._log = log

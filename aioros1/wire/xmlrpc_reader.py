@@ -237,7 +237,8 @@ class Document:
             except ValueError as error:
                 self._fail(str(error))
             if self._bytes and tag == "base64":
-                self._values[-1] = b"".join((self._bytes, self._values[-1]))
+                rest: Any = self._values[-1]
+                self._values[-1] = b"".join((self._bytes, rest))
                 self._bytes.clear()
         elif tag == "name":
             if self._members[-1][0] is not UNSET:

@@ -42,18 +42,18 @@ def brief(value: object) -> str:
 
 
 class _Brief(reprlib.Repr):
-    def repr_bytes(self, value: bytes, level: int) -> str:
-        return repr(value[:60])
+    def repr_bytes(self, x: bytes, level: int) -> str:
+        return repr(x[:60])
 
     repr_bytearray = repr_bytes
 
-    def repr_str(self, value: str, level: int) -> str:
-        return repr(value[:60])
+    def repr_str(self, x: str, level: int) -> str:
+        return repr(x[:60])
 
-    def repr_dict(self, value: dict[Any, Any], level: int) -> str:
+    def repr_dict(self, x: dict[Any, Any], level: int) -> str:
         if level <= 0:
             return "{...}"
-        items = islice(value.items(), 20)
+        items = islice(x.items(), 20)
         texts = (f"{brief(key)}: {self.repr1(item, level - 1)}" for key, item in items)
         return f"{{{', '.join(texts)}}}"
 
