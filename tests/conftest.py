@@ -96,8 +96,8 @@ def clean_environment(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name, raising=False)
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
+@pytest.hookimpl(wrapper=True, specname="pytest_runtest_makereport")
+def pytest_report_without_surrogates() -> Generator[None, pytest.TestReport, pytest.TestReport]:
     """Let a process of xdist tell what a test has logged that is no UTF-8."""
     report = yield
     report.sections = [
