@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
@@ -236,6 +237,8 @@ class NodeOptions:
                 raise ValueError(f"{name} must be a whole number from 0 to 65535, got {port!r}")
         if self.on_error not in ("raise", "log") and not callable(self.on_error):
             raise ValueError(f"on_error must be 'raise', 'log' or callable, got {self.on_error!r}")
+        if inspect.iscoroutinefunction(self.on_error):
+            raise TypeError(f"on_error is called, not awaited: use `def`, got {self.on_error!r}")
         if self.heartbeat is not None and not self.heartbeat > 0:
             raise ValueError(f"heartbeat must be positive or None, got {self.heartbeat!r}")
         _check_without_master(self.without_master, self.heartbeat)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import inspect
+import os
 import signal
 import sys
 import threading
@@ -28,6 +29,9 @@ and after that, before the program ends without it."""
 _BLOCKED = 0.5
 """Seconds after which an event loop that has not received a signal counts as blocked."""
 
+_LIBRARIES = ("aioros1", "aiohttp")
+"""The packages whose tasks end with the node."""
+
 _MOST_EXITS = 10
 """How many times the program may call ``sys.exit`` while it ends, before it ends at once."""
 
@@ -49,7 +53,8 @@ def run(
 
     SIGINT, SIGTERM, a shutdown from the graph (``rosnode kill``, a second node of the name) and
     an error of the node cancel ``main``. Its roles stay open for ``timeouts.close`` seconds, so
-    that a ``finally`` can stop the robot; then the node closes. A second signal closes the node
+    that a ``finally`` can stop the robot; then the node closes. Tasks that ``main`` leaves behind
+    are cancelled when it ends, before roles close. A second signal closes the node
     at once; if ``main`` blocks the event loop, it is interrupted by a :class:`KeyboardInterrupt`.
     A signal while the node starts stops the start.
 
@@ -122,6 +127,11 @@ def _run(
     script: _Script[Any], loop_factory: Callable[[], asyncio.AbstractEventLoop] | None
 ) -> None:
     with contextlib.ExitStack() as stack:
+        # Closing the runner waits for the threads of asyncio.to_thread, for ever if need be.
+        threads: list[threading.Thread] = []
+        late = threading.Timer(_LATE, _name_threads, (script.node_name, threads))
+        late.daemon = True
+        stack.callback(late.cancel)
         runner = stack.enter_context(asyncio.Runner(loop_factory=loop_factory))
         part = script.live()
         for _ in range(_MOST_EXITS):
@@ -136,6 +146,15 @@ def _run(
             part.close()
         if script.is_left_behind:
             stack.pop_all()  # closing the runner would wait for main
+        else:
+            threads.extend(threading.enumerate())  # Python starts one more, which waits for them
+            late.start()
+
+
+def _name_threads(node_name: str, threads: list[threading.Thread]) -> None:
+    left = (each for each in threads if each.is_alive() and not each.daemon)
+    names = ", ".join(each.name for each in left if each is not threading.main_thread())
+    sys.stderr.write(f"{node_name} is closed; the program waits for its threads: {names}\n")
 
 
 class _Script(Generic[T]):
@@ -146,6 +165,7 @@ class _Script(Generic[T]):
         """A :class:`SystemExit` or :class:`KeyboardInterrupt` of the program."""
         self.is_left_behind = False
         """Whether ``main`` goes on although its node is closed and it was cancelled."""
+        self.node_name = node.name
         self._function = main
         self._node = node
         self._life: asyncio.Task[Any] | None = None
@@ -179,6 +199,7 @@ class _Script(Generic[T]):
                     self._receive_signal()  # as if it had been one
             self._failure = closed.exception()
             self.is_left_behind = not await self._has_ended(main)
+            self._say_why()
             if cancelled is not None:
                 raise cancelled
 
@@ -206,9 +227,16 @@ class _Script(Generic[T]):
             raise self._failure
         if error is not None:
             raise error
-        if self._was_told and not self._signals and self._node.close_reason != "closed":
-            sys.stderr.write(f"{self._node.name} was shut down: {self._node.close_reason}\n")
         return self._result
+
+    def _say_why(self) -> None:
+        """Write why the graph has ended the node, unless there is more to say."""
+        reason = self._node.close_reason
+        if not self._was_told or self._signals or reason == "closed":
+            return
+        has_failed = self._error is not None and _without_ends(self._error) is not None
+        if not (has_failed or self._failure or self.exit or self.is_left_behind):
+            sys.stderr.write(f"{self.node_name} was shut down: {reason}\n")
 
     async def _run_main(self) -> None:
         try:
@@ -220,6 +248,22 @@ class _Script(Generic[T]):
             self._error = error
         finally:
             self._was_told = self._node.close_reason is not None
+            await self._end_tasks()
+
+    async def _end_tasks(self) -> None:
+        """Cancel the tasks that ``main`` has left, as the end of the event loop would do, but
+        while their roles are open."""
+        left = {task for task in asyncio.all_tasks() if _is_of_program(task)}
+        if not left:
+            return
+        for task in left:
+            task.cancel()
+        ended, _ = await asyncio.wait(left, timeout=self._node.timeouts.close)
+        for task in ended:
+            # It may have used a role that main has closed.
+            error = None if task.cancelled() else task.exception()
+            if error is not None and (error := _without_ends(error)) is not None:
+                self._node.log.error("%s failed while it ended", task.get_name(), exc_info=error)
 
     async def _has_ended(self, main: asyncio.Task[None]) -> bool:
         """Whether ``main`` ends, now that the node is closed."""
@@ -243,6 +287,13 @@ class _Script(Generic[T]):
         closing.add_done_callback(self._closing.discard)
 
 
+def _is_of_program(task: asyncio.Task[Any]) -> bool:
+    """Whether the code of a task is not of this library, nor of the HTTP server it uses."""
+    frame = getattr(task.get_coro(), "cr_frame", None)
+    module: str = "" if frame is None else frame.f_globals.get("__name__", "")
+    return module.partition(".")[0] not in _LIBRARIES
+
+
 def _without_ends(error: BaseException) -> BaseException | None:
     """What is left of an exception of ``main`` that was told to end."""
     ends = (asyncio.CancelledError, ClosedError)
@@ -262,9 +313,16 @@ def _handling_signals(
     """
     # Not loop.add_signal_handler(): nothing could interrupt a loop that is blocked.
     waiting_since: float | None = None
+    owner = os.getpid()
 
     def handle(number: int, frame: object) -> None:
         nonlocal waiting_since
+        if number == signal.SIGTERM and os.getpid() != owner:
+            # A process that was forked from this one: it has to end, as Process.terminate()
+            # asks. Ctrl-C reaches all of them, and workers may be needed to clean up.
+            signal.signal(number, previous[number] or signal.SIG_DFL)
+            os.kill(os.getpid(), number)
+            return
         now = time.monotonic()
         if waiting_since is None:
             waiting_since = now

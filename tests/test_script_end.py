@@ -106,6 +106,7 @@ class Programs:
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-W", "error", "-c", code),
             env={"ROS_MASTER_URI": self._uri, "PYTHONPATH": str(ROOT), "PATH": ""},
+            stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.PIPE,
         )
@@ -225,6 +226,37 @@ node.create_task(drive())
 await node.wait_closed()
 """
 
+IN_A_TASK_OF_ITS_OWN = """
+async def drive():
+    try:
+        while True:
+            pub.publish(data="drive")
+            await asyncio.sleep(0.001)
+    finally:
+        await asyncio.sleep(0.01)
+        pub.publish(data="stop")
+        await pub.close()
+        pub.publish(data="never")  # a ClosedError that nobody retrieves
+
+task = asyncio.create_task(drive())
+await asyncio.Event().wait()
+"""
+
+BEHIND_THE_BACK = """
+async def drive():
+    while True:
+        pub.publish(data="drive")
+        await asyncio.sleep(0.001)
+
+@node.on_shutdown
+async def stop():
+    pub.publish(data="stop")
+    await asyncio.sleep(0.05)
+
+task = asyncio.create_task(drive())
+await asyncio.Event().wait()
+"""
+
 
 BODIES = {
     "driving": DRIVING,
@@ -232,6 +264,8 @@ BODIES = {
     "in a group": IN_A_GROUP,
     "by timers": BY_TIMERS,
     "in a task": IN_A_TASK,
+    "in a task of its own": IN_A_TASK_OF_ITS_OWN,
+    "behind the back": BEHIND_THE_BACK,
 }
 
 
@@ -252,6 +286,57 @@ async def test_whoever_ends_the_node_main_is_cancelled(programs, how):
     await program.ready()
     await end_by(how, program, programs)
     assert await program.ended() == (0, "True\nended None\n", REASONS[how])
+
+
+async def test_a_task_that_main_leaves_behind_ends_while_roles_are_open(programs):
+    program = await programs.start(
+        IN_A_TASK_OF_ITS_OWN.replace("asyncio.Event().wait()", "asyncio.sleep(0.1)\nreturn 5")
+    )
+    assert await program.ended() == (0, "ready\nended 5\n", "")
+    assert program.heard[-1] == "stop"
+
+
+async def test_what_fails_in_a_task_that_is_left_behind_is_shown(programs):
+    program = await programs.start(
+        "async def fail():\n    try:\n        await asyncio.sleep(3600)\n"
+        "    finally:\n        raise ValueError('mine')\n"
+        "task = asyncio.create_task(fail(), name='failing')\nawait asyncio.sleep(0)"
+    )
+    status, _, errors = await program.ended()
+    assert status == 0
+    assert errors.count("ValueError: mine") == 1
+    assert "failing failed while it ended" in errors
+
+
+async def test_a_thread_that_does_not_end_is_named_after_the_reason(programs):
+    """Python waits for it, and nothing can interrupt it."""
+    program = await programs.start(
+        "try:\n    await asyncio.to_thread(sys.stdin.readline)\n"
+        "finally:\n    pub.publish(data='stop')"
+    )
+    await program.ready()
+    await end_by("kill", program, programs)
+    assert program.process.stderr is not None
+    async with asyncio.timeout(PATIENCE):
+        assert (await program.process.stderr.readline()).decode() == REASONS["kill"]
+        line = (await program.process.stderr.readline()).decode()
+    assert line == "/robot is closed; the program waits for its threads: asyncio_0\n"
+    assert program.process.stdin is not None
+    program.process.stdin.close()
+    assert await program.ended() == (0, "ended None\n", "")
+    assert program.heard[-1] == "stop"
+
+
+async def test_a_forked_process_can_be_terminated(programs):
+    program = await programs.start(
+        "import multiprocessing, time\n"
+        "process = multiprocessing.get_context('fork').Process(target=time.sleep, args=(3600,))\n"
+        "process.start()\nprocess.terminate()\n"
+        "await asyncio.to_thread(process.join)\n"
+        "pub.publish(data='stop')\nreturn process.exitcode"
+    )
+    assert await program.ended() == (0, "ready\nended -15\n", "")
+    assert program.heard[-1] == "stop"
 
 
 async def test_a_main_that_goes_on_for_a_while_returns_its_result(programs):

@@ -10,6 +10,7 @@ from aioros1.log.library_log import LibraryLog
 from aioros1.net.backoff import Backoff
 from aioros1.options import WithoutMaster
 from aioros1.waiting import Obstacle
+from aioros1.xmlrpc.master_proxy import port_advice
 
 __all__ = ["Contact"]
 
@@ -53,7 +54,8 @@ class Contact:
             try:
                 answer = await ask()
             except MasterUnreachable as error:
-                self._say(f"waiting for a master: {error.in_short}; {_ADVICE}")
+                advice = port_advice(self._master_uri) + _ADVICE
+                self._say(f"waiting for a master: {error.in_short}; {advice}")
                 self._missing = error.in_short
             else:
                 self.reached()
@@ -67,8 +69,8 @@ class Contact:
     def deferred(self) -> None:
         """Say that what was opened is registered later."""
         self._say(
-            f"no master answers at {self._master_uri}: what is opened now is registered as soon "
-            "as one does"
+            f"no master answers at {self._master_uri}: {port_advice(self._master_uri)}"
+            "what is opened now is registered as soon as one does"
         )
 
     def _say(self, text: str) -> None:

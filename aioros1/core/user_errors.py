@@ -88,7 +88,9 @@ class UserErrors:
         if callable(self._policy):
             try:
                 self._policy(error)
-            except Exception as second:  # it must not break our caller
+            except (SystemExit, KeyboardInterrupt) as end:
+                leave_loop(end)
+            except BaseException as second:  # it must not break our caller
                 self._log.error("on_error failed with %s", _shown(error), exc_info=second)
         elif self._policy == "log":
             self._log.error("%s failed", what, exc_info=error)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections.abc import Awaitable, Coroutine, Generator
 from types import TracebackType
 from typing import Any, Self, TypeVar
@@ -231,10 +232,11 @@ class Composite:
         self.__state = "closed"
         if self.__opening is not None:
             self.__opening.cancel()
-        for member in self.__owned:
-            if isinstance(member, Composite):
-                member.__drop()
-        self._abort()
+        with contextlib.ExitStack() as stack:  # one that fails keeps no other from being dropped
+            stack.callback(self._abort)
+            for member in self.__owned:
+                if isinstance(member, Composite):
+                    stack.callback(member.__drop)
 
     def __closed_error(self) -> ClosedError:
         reason = self.__node.close_reason

@@ -636,7 +636,7 @@ class Node(TopicMethods, ServiceMethods, ParamMethods, TimeMethods):
         for abort in tuple(members.values()):
             try:
                 abort()
-            except Exception as error:  # in a composite: still drop the others
+            except BaseException as error:  # in a composite: still drop the others
                 self._context.report(error, "dropping what was open")
         members.clear()
         self._end_time()

@@ -12,7 +12,7 @@ from aioros1.errors import MasterError, MasterUnreachable, NodeNotFound
 from aioros1.net.connecting import is_exhausted
 from aioros1.xmlrpc.client import XmlRpcClient, as_it_is, call_triple
 
-__all__ = ["MasterProxy", "SystemState", "TopicType", "identify", "topic_types"]
+__all__ = ["MasterProxy", "SystemState", "TopicType", "identify", "port_advice", "topic_types"]
 
 T = TypeVar("T")
 
@@ -37,6 +37,15 @@ class SystemState(NamedTuple):
     """Topic to the nodes that receive it."""
     services: dict[str, list[str]]
     """Service to the nodes that provide it."""
+
+
+def port_advice(uri: str) -> str:
+    """What to say first when no master is at ``uri``, if the URI has no port; or nothing."""
+    parts = urlsplit(uri)
+    if parts.port is not None:
+        return ""
+    named = f"http://{parts.netloc}:11311"
+    return f"a URI without a port means port 80, did you mean {named}? If not, "
 
 
 @public
@@ -92,10 +101,7 @@ class MasterProxy:
             "no master is there: start one with `aioros1 master`, set ROS_MASTER_URI to the one "
             'you have, or let the node wait for it with without_master="wait"'
         )
-        parts = urlsplit(self.uri)
-        if parts.port is None:
-            named = f"http://{parts.netloc}:11311"
-            advice = f"a URI without a port means port 80, did you mean {named}? If not, {advice}"
+        advice = port_advice(self.uri) + advice
         return MasterUnreachable(str(error), advice=advice, was_sent=False)
 
     # look-ups

@@ -105,6 +105,32 @@ async def test_a_node_that_is_dropped_drops_it(make_node, master):
     assert "abort" in relay.log
 
 
+@pytest.mark.parametrize("error", [ValueError, asyncio.CancelledError])
+async def test_one_that_fails_to_drop_keeps_no_other_from_it(master, error):
+    dropped = []
+
+    class Fragile(Composite):
+        def _abort(self):
+            dropped.append(self.name)
+            raise error(self.name)
+
+    class Pair(Fragile):
+        async def _open(self):
+            await self._own(Fragile(self.node, "first"))
+            await self._own(Fragile(self.node, "second"))
+
+    node = await aioros1.Node("node", master_uri=master.uri, host="localhost").start()
+    events = node.events()
+    await Pair(node, "pair")
+    await Fragile(node, "last")
+    node.abort()
+    assert sorted(dropped) == ["first", "last", "pair", "second"]
+    async with asyncio.timeout(20):
+        async for _ in events:
+            pass
+    assert await node.wait_closed() == "aborted"
+
+
 async def test_one_within_another(make_node):
     node = await make_node()
 

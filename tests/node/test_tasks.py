@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import sys
+from collections import Counter
 
 import pytest
 
@@ -136,6 +138,71 @@ async def test_on_error_that_fails_is_logged(make_node, caplog):
     node = await make_node(on_error=on_error)
     node.handle_error(ValueError("first"), "mine")
     assert "on_error failed with ValueError('first')" in caplog.text
+
+
+class Strange(BaseException):
+    """Neither an error nor the end of the program."""
+
+
+@pytest.mark.parametrize("error", [asyncio.CancelledError, GeneratorExit, Strange])
+@pytest.mark.parametrize("transports", [(), ("intraprocess",)], ids=["tcp", "in-process"])
+@pytest.mark.parametrize("is_async", [False, True], ids=["def", "async def"])
+async def test_whatever_on_error_raises_everything_goes_on(
+    make_node, caplog, error, transports, is_async
+):
+    """What failed is called again: the callback of a topic, a timer, and publish_every."""
+    calls = Counter()
+
+    def on_error(_):
+        raise error("in on_error")
+
+    def fail(what):
+        calls[what] += 1
+        raise ValueError(what)
+
+    async def fail_later(what):
+        fail(what)
+
+    async def receive_later(_):
+        fail("callback")
+
+    receive = receive_later if is_async else lambda _: fail("callback")
+    function = fail_later if is_async else fail
+    node = await make_node("node", on_error=on_error, local_transports=transports)
+    other = await make_node("other", local_transports=transports)
+    await node.subscribe("topic", "std_msgs/String", receive)
+    pub = await other.advertise("topic", "std_msgs/String")
+    node.timer(0.01, lambda _: function("timer"))
+    (await node.advertise("other", "std_msgs/String")).publish_every(0.01, lambda _: fail("every"))
+    await pub.wait_for_subscribers(timeout=20)
+    async with asyncio.timeout(10):
+        while len(calls) < 3 or min(calls.values()) < 3:
+            pub.publish(data="again")
+            await asyncio.sleep(0.01)
+    assert "on_error failed with ValueError('callback')" in caplog.text
+    assert node.is_open
+
+
+async def test_on_error_that_exits_ends_the_program(master):
+    """As everywhere: the event loop itself raises it. Run in a loop of its own."""
+
+    async def main():
+        async with aioros1.Node(
+            "node", master_uri=master.uri, host="localhost", on_error=lambda _: sys.exit(3)
+        ) as node:
+            node.handle_error(ValueError("first"), "mine")
+            await asyncio.sleep(3600)
+
+    with pytest.raises(SystemExit, match="3"):
+        await asyncio.to_thread(asyncio.run, main())
+
+
+async def test_on_error_that_would_have_to_be_awaited_is_refused():
+    async def on_error(error):
+        pass
+
+    with pytest.raises(TypeError, match=r"on_error is called, not awaited: use `def`"):
+        aioros1.Node("node", on_error=on_error)
 
 
 async def test_a_node_that_is_not_open_takes_no_task(master):

@@ -92,6 +92,18 @@ async def test_a_uri_without_a_port_means_port_80_and_the_error_says_so():
     assert "means port 80, did you mean http://localhost:11311?" in str(caught.value)
 
 
+@pytest.mark.parametrize("policy", ["wait", "later"])
+async def test_who_does_not_raise_says_so_too_about_a_uri_without_a_port(policy, caplog):
+    async with aioros1.Node(
+        "demo", master_uri="http://localhost", host="localhost", without_master=policy
+    ) as node:
+        opening = node.create_task(node.advertise("chatter", String).__aenter__())
+        async with asyncio.timeout(20):
+            while "did you mean http://localhost:11311?" not in caplog.text:
+                await asyncio.sleep(0.01)
+        opening.cancel()
+
+
 def test_the_option_is_checked():
     with pytest.raises(ValueError, match=r"'raise', 'wait', 'later', got 'never'"):
         aioros1.Node("demo", without_master="never")
