@@ -18,6 +18,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 
 from aioros1.core.supervisor import Supervisor
+from aioros1.core.time_taken import TimeTaken
 from aioros1.errors import ClosedError, MasterError, MasterUnreachable
 from aioros1.events import Event, RoleRegistered, RoleUnregistered
 from aioros1.waiting import deadline
@@ -31,9 +32,6 @@ _AT_ONCE = 6
 _HOLD = 0.05
 """The part of a caller's patience after which a request that waits for its answer no longer
 counts in _AT_ONCE: a quarter of a second, unless ``timeouts.xmlrpc`` was changed."""
-
-_TYPICAL = 0.02
-"""Seconds that a request takes, until it is known better."""
 
 _STRAGGLERS = 16
 """The most requests of a node whose answer nothing waits for. Each has a connection."""
@@ -86,8 +84,8 @@ class Registration:
         """When a request was given up that the master may still process, by the loop's time."""
         self.told_at = 0.0
         """When the last request was answered, by the loop's time."""
-        self.took = _TYPICAL
-        """Seconds that requests take, of which a single slow one says little."""
+        self.took = TimeTaken()
+        """How long requests take."""
         self._terms = terms
         self._register = register
         self._unregister = unregister
@@ -369,7 +367,7 @@ class Registration:
         try:
             await (self._register() if wanted else self._unregister())
             self.told_at = loop.time()
-            self.took = min(self.told_at - begin, 2 * self.took)
+            self.took.add(self.told_at - begin)
         except Exception as error:
             answer.set_result(error)
         else:

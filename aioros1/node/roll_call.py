@@ -14,6 +14,7 @@ from urllib.parse import urlsplit
 
 from aioros1.core.context import Context
 from aioros1.core.registration import Registration
+from aioros1.core.time_taken import TimeTaken
 from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.xmlrpc.client import is_judgement
 from aioros1.xmlrpc.master_proxy import SystemState
@@ -34,9 +35,6 @@ _LATE_REQUESTS = 60.0
 """Seconds in which a master may still process a request whose connection was closed."""
 
 _LONGEST_PAUSE = 600.0
-
-_TYPICAL = 0.02
-"""Seconds that a comparison takes, until it is known better."""
 
 
 @dataclass
@@ -61,7 +59,7 @@ class RollCall:
         self._context = context
         self._next = 0.0  # when to compare, by the loop's time
         self._once_more: list[float] = []  # when to compare as well
-        self._took = _TYPICAL  # seconds that a comparison takes
+        self._took = TimeTaken()  # by a comparison
         self._absences = _Absences()
         self._is_replaced = False
 
@@ -109,9 +107,8 @@ class RollCall:
             context.log.debug("registrations cannot be compared: %s", error)
             self._next = now + _LONGEST_PAUSE
             return Found()
-        # A single slow answer says little about the next ones.
-        self._took = min(loop.time() - now, 2 * self._took)
-        self._next = now + self._took * max(len(_names(state)), 1) / _SHARE
+        self._took.add(loop.time() - now)
+        self._next = now + self._took.seconds * max(len(_names(state)), 1) / _SHARE
         absent, is_listed = [], False
         for entry, requests in told.items():
             part = _LISTED.get(entry.kind)
@@ -164,7 +161,7 @@ class RollCall:
         """Register again what no master lists, each so rarely that it costs little."""
         for entry, requests in told.items():
             if entry.kind not in _LISTED and _is_unchanged(entry, requests):
-                pause = max(_CONFIRM, entry.took / _SHARE)
+                pause = max(_CONFIRM, entry.took.seconds / _SHARE)
                 if now >= entry.told_at + pause:
                     entry.confirm()
 

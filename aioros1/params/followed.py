@@ -63,7 +63,7 @@ class FollowedParam(Shared[Following]):
         super().__init__(context, key, table)
         self.value: Any = {}
         """The value now, with everything below it."""
-        self._rereading = Rereading(context, key, self._read)
+        self._rereading = Rereading(context, key, self._read, table)
         self._own = 0  # changes by this node that the master has not answered
         self._own_overlap = False
         self._doubtful_until = float("-inf")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import asyncio
 import math
 import random
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sized
 from typing import TYPE_CHECKING
 
+from aioros1.core.time_taken import TimeTaken
 from aioros1.errors import MasterError, MasterUnreachable
 from aioros1.waiting import Waiters
 
@@ -24,7 +25,11 @@ _MOST_BEATS = 4
 
 _SHARE = 50
 """While nothing is heard, the time between two readings is at least that many times as long as
-a reading takes, so that large values are seldom read."""
+a reading takes, so that large values are seldom read. The same holds for all that a node
+follows together: a master has many nodes, and each may follow hundreds of parameters."""
+
+_LONGEST = 60.0
+"""Seconds between two readings for the sake of the other parameters, at most."""
 
 
 class Rereading:
@@ -32,16 +37,20 @@ class Rereading:
 
     Notices may be lost, or overtaken by changes. And rosmaster sends none to the followers of
     ``/a/b`` when ``/a`` is set to a plain value. ``read`` returns whether the value was
-    another than the one known.
+    another than the one known. ``followed`` is all that the node follows.
     """
 
-    def __init__(self, context: Context, name: str, read: Callable[[], Awaitable[bool]]) -> None:
+    def __init__(
+        self, context: Context, name: str, read: Callable[[], Awaitable[bool]], followed: Sized
+    ) -> None:
         self._context = context
         self._name = name
         self._read = read
+        self._followed = followed
         self._beat = context.options.heartbeat or 1.0
         self._reads_idly = context.options.heartbeat is not None
         self._interval = self._beat
+        self._took = TimeTaken()
         self._due = math.inf
         self._not_before = -math.inf
         self._is_refused = False
@@ -88,7 +97,7 @@ class Rereading:
                 if await self._read():
                     self._interval = self._beat
                 else:
-                    rest = (loop.time() - began) * _SHARE if self._reads_idly else math.inf
+                    rest = self._rest(loop.time() - began)
                 self._is_refused = False
             except MasterUnreachable:
                 pass
@@ -99,5 +108,13 @@ class Rereading:
             now = loop.time()
             self._not_before = now + max(_GAP, now - began)
             # Nodes that were started together need not read together for ever.
-            self._plan(now + max(rest, self._interval * random.uniform(0.9, 1.1)))
+            self._plan(now + max(rest, self._interval) * random.uniform(0.9, 1.1))
             self._interval = min(self._interval * 2, self._beat * _MOST_BEATS)
+
+    def _rest(self, took: float) -> float:
+        """How long not to read a value of which nothing is heard, and which is the same."""
+        if not self._reads_idly:
+            return math.inf
+        self._took.add(took)
+        all_of_them = self._took.seconds * _SHARE * len(self._followed)
+        return max(took * _SHARE, min(all_of_them, _LONGEST))

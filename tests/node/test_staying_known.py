@@ -133,6 +133,27 @@ async def test_a_single_role_that_is_missing(make_node, role):
     assert watched.seen == []
 
 
+async def test_a_list_that_has_become_long_is_seldom_asked_for(make_node, monkeypatch):
+    """All nodes ask for it, and the master has other things to do."""
+    asked = []
+    pause = 0.0
+    get = aioros1.MasterProxy.get_system_state
+
+    async def slower(master):
+        asked.append(time.monotonic())
+        await asyncio.sleep(pause)
+        return await get(master)
+
+    node = await make_node("node", heartbeat=0.02, **PLAIN)
+    await node.advertise("/out", String)
+    monkeypatch.setattr(aioros1.MasterProxy, "get_system_state", slower)
+    await until(lambda: _true(len(asked) > 10))
+    pause = 0.05
+    del asked[:]
+    # Of one node, it may take a twentieth of the time.
+    await until(lambda: _true(len(asked) > 1 and asked[-1] - asked[-2] > 0.5))
+
+
 @pytest.mark.parametrize("pause", [0.05, 1000.0])
 async def test_a_followed_parameter_alone(make_node, monkeypatch, pause):
     """No master tells who follows what, so it is followed once more now and then, and when a

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import collections
 import gc
 import random
 import tracemalloc
 
 import pytest
+
+import aioros1
 
 
 @pytest.fixture
@@ -88,6 +91,35 @@ async def test_the_cache_follows_no_more_when_many_ask_at_once_and_some_give_up(
         while len(followed()) > 256:
             await asyncio.sleep(0.01)
     assert len({role.name for role in followed()}) == len(followed())
+
+
+async def test_many_parameters_that_do_not_change_are_seldom_read(make_node, monkeypatch):
+    """All nodes ask one master, and each may follow hundreds."""
+    asked = collections.Counter()
+    call = aioros1.MasterProxy.call
+
+    async def counted(master, method, *params, **options):
+        if master.caller_id == "/follower":
+            asked[method] += 1
+        return await call(master, method, *params, **options)
+
+    monkeypatch.setattr(aioros1.MasterProxy, "call", counted)
+    setter = await make_node("setter")
+    follower = await make_node("follower", heartbeat=0.05)
+    keys = [f"/many/k{number}" for number in range(200)]
+    await setter.set_param("/many", {key.rpartition("/")[2]: 1 for key in keys})
+    for key in keys:
+        assert await follower.get_param_cached(key) == 1
+    beats, readings = asked["getPid"], asked["getParam"]
+    async with asyncio.timeout(30):
+        while asked["getPid"] < beats + 60:
+            await asyncio.sleep(0.05)
+    # With four heartbeats between two readings of each, it would be fifteen times as many.
+    assert asked["getParam"] - readings < 6 * len(keys)
+    await setter.set_param(keys[7], 2)
+    async with asyncio.timeout(30):
+        while await follower.get_param_cached(keys[7]) != 2:
+            await asyncio.sleep(0.01)
 
 
 async def test_a_cached_parameter_whose_follower_was_closed_is_followed_again(pair):
