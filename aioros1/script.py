@@ -320,7 +320,7 @@ def _handling_signals(
         if number == signal.SIGTERM and os.getpid() != owner:
             # A process that was forked from this one: it has to end, as Process.terminate()
             # asks. Ctrl-C reaches all of them, and workers may be needed to clean up.
-            signal.signal(number, previous[number] or signal.SIG_DFL)
+            signal.signal(number, previous[signal.Signals(number)] or signal.SIG_DFL)
             os.kill(os.getpid(), number)
             return
         now = time.monotonic()
