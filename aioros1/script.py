@@ -62,8 +62,8 @@ def run(
     ends by its cancellation or a :class:`~aioros1.ClosedError`. After a shutdown from the graph
     the reason is written to standard error. Any other exception of ``main`` is raised once the
     node is closed, and so is one in a callback that ended the node (``on_error="raise"``), and
-    the :class:`SystemExit` of a ``sys.exit()`` anywhere in the program. If ``main`` does not end
-    although it was cancelled twice, the program exits without it, with status 1.
+    the :class:`SystemExit` of a ``sys.exit()`` anywhere in the program. If ``main`` or a task
+    does not end although it was cancelled twice, the program exits without it, with status 1.
 
     Without a master, what ``main`` asks of it waits until one answers, and a line on standard
     error says so (``without_master="wait"``). With ``without_master="raise"``, and after
@@ -144,8 +144,10 @@ def _run(
                 part = script.resume()
         else:
             part.close()
+        with contextlib.suppress(SystemExit, KeyboardInterrupt):
+            runner.run(script.end_rest())
         if script.is_left_behind:
-            stack.pop_all()  # closing the runner would wait for main
+            stack.pop_all()  # closing the runner would wait for ever
         else:
             threads.extend(threading.enumerate())  # Python starts one more, which waits for them
             late.start()
@@ -164,7 +166,7 @@ class _Script(Generic[T]):
         self.exit: BaseException | None = None
         """A :class:`SystemExit` or :class:`KeyboardInterrupt` of the program."""
         self.is_left_behind = False
-        """Whether ``main`` goes on although its node is closed and it was cancelled."""
+        """Whether ``main`` or a task goes on although the node is closed and it was cancelled."""
         self.node_name = node.name
         self._function = main
         self._node = node
@@ -175,6 +177,7 @@ class _Script(Generic[T]):
         self._failure: BaseException | None = None  # of the node
         self._was_told = False  # whether main was running when the node was told to end
         self._signals = 0
+        self._late = ""  # what is left behind
         self._closing: set[asyncio.Task[None]] = set()
 
     async def live(self) -> None:
@@ -198,7 +201,9 @@ class _Script(Generic[T]):
                     cancelled = error
                     self._receive_signal()  # as if it had been one
             self._failure = closed.exception()
-            self.is_left_behind = not await self._has_ended(main)
+            if not await self._has_ended(main):
+                self.is_left_behind = True
+                self._late = repr(self._function)
             self._say_why()
             if cancelled is not None:
                 raise cancelled
@@ -210,6 +215,15 @@ class _Script(Generic[T]):
         await asyncio.wait((self._life,))
         self._life.result()
 
+    async def end_rest(self) -> None:
+        """Cancel all tasks that are left, as closing the runner does, but wait a while only."""
+        rest = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in rest:
+            task.cancel()
+        if rest and (late := (await asyncio.wait(rest, timeout=_LATE))[1]):
+            self.is_left_behind = True
+            self._late = self._late or ", ".join(sorted(task.get_name() for task in late))
+
     def outcome(self) -> T | None:
         """Return the result of ``main``, or raise what there is to raise, after the end."""
         error = self._error
@@ -220,7 +234,7 @@ class _Script(Generic[T]):
         if isinstance(error, SystemExit):
             raise error
         if self.is_left_behind:
-            raise SystemExit(f"{self._function!r} goes on although it was cancelled: left behind")
+            raise SystemExit(f"{self._late} goes on although it was cancelled: left behind")
         if self._failure is not None:
             if error is not None:
                 self._node.log.error("main failed while it ended", exc_info=error)
@@ -261,8 +275,8 @@ class _Script(Generic[T]):
         ended, _ = await asyncio.wait(left, timeout=self._node.timeouts.close)
         for task in ended:
             # It may have used a role that main has closed.
-            error = None if task.cancelled() else task.exception()
-            if error is not None and (error := _without_ends(error)) is not None:
+            error = None if task.cancelled() else _without_ends(task.exception())
+            if error is not None and not isinstance(error, (SystemExit, KeyboardInterrupt)):
                 self._node.log.error("%s failed while it ended", task.get_name(), exc_info=error)
 
     async def _has_ended(self, main: asyncio.Task[None]) -> bool:
@@ -294,7 +308,7 @@ def _is_of_program(task: asyncio.Task[Any]) -> bool:
     return module.partition(".")[0] not in _LIBRARIES
 
 
-def _without_ends(error: BaseException) -> BaseException | None:
+def _without_ends(error: BaseException | None) -> BaseException | None:
     """What is left of an exception of ``main`` that was told to end."""
     ends = (asyncio.CancelledError, ClosedError)
     if isinstance(error, BaseExceptionGroup):

@@ -94,6 +94,7 @@ class Programs:
         handler: str = "lambda request: None",
         loop: str = "None",
         timeouts: str = "aioros1.Timeouts(close=30)",
+        stdin: int = asyncio.subprocess.DEVNULL,
     ) -> Program:
         code = PROGRAM.format(
             body=body.strip().replace("\n", "\n    "),
@@ -106,7 +107,7 @@ class Programs:
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-W", "error", "-c", code),
             env={"ROS_MASTER_URI": self._uri, "PYTHONPATH": str(ROOT), "PATH": ""},
-            stdin=asyncio.subprocess.PIPE,
+            stdin=stdin,
             stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.PIPE,
         )
@@ -296,6 +297,23 @@ async def test_a_task_that_main_leaves_behind_ends_while_roles_are_open(programs
     assert program.heard[-1] == "stop"
 
 
+@pytest.mark.parametrize("start", ["asyncio.create_task", "node.create_task"])
+async def test_a_task_that_does_not_end_does_not_keep_the_program(programs, start):
+    program = await programs.start(
+        "async def go_on():\n    while True:\n        try:\n            await asyncio.sleep(3600)\n"
+        "        except asyncio.CancelledError:\n            pass\n"
+        f"task = {start}(go_on(), name='endless')\n"
+        "try:\n    await asyncio.sleep(3600)\nfinally:\n    pub.publish(data='stop')",
+        timeouts="aioros1.Timeouts(close=0.5)",
+    )
+    await program.ready()
+    await end_by("SIGINT", program, programs)
+    status, _, errors = await program.ended()
+    assert status == 1
+    assert "endless goes on although it was cancelled: left behind" in errors
+    assert program.heard[-1] == "stop"
+
+
 async def test_what_fails_in_a_task_that_is_left_behind_is_shown(programs):
     program = await programs.start(
         "async def fail():\n    try:\n        await asyncio.sleep(3600)\n"
@@ -312,7 +330,8 @@ async def test_a_thread_that_does_not_end_is_named_after_the_reason(programs):
     """Python waits for it, and nothing can interrupt it."""
     program = await programs.start(
         "try:\n    await asyncio.to_thread(sys.stdin.readline)\n"
-        "finally:\n    pub.publish(data='stop')"
+        "finally:\n    pub.publish(data='stop')",
+        stdin=asyncio.subprocess.PIPE,
     )
     await program.ready()
     await end_by("kill", program, programs)
