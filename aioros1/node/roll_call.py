@@ -61,6 +61,7 @@ class RollCall:
         self._once_more: list[float] = []  # when to compare as well
         self._took = TimeTaken()  # by a comparison
         self._absences = _Absences()
+        self._taken: set[Registration] = set()  # services that other nodes provide now
         self._is_replaced = False
 
     def suspect(self) -> None:
@@ -110,6 +111,7 @@ class RollCall:
         self._took.add(loop.time() - now)
         self._next = now + self._took.seconds * max(len(_names(state)), 1) / _SHARE
         absent, is_listed = [], False
+        taken, self._taken = self._taken, set()
         for entry, requests in told.items():
             part = _LISTED.get(entry.kind)
             if part is None or not _is_unchanged(entry, requests):
@@ -119,6 +121,8 @@ class RollCall:
                 is_listed = True
                 self._absences.end(entry)
                 self._absences.end(None)
+            elif part == "services" and nodes:
+                self._taken.add(entry)
             if not entry.is_wanted:
                 if context.name in nodes:
                     entry.doubt()
@@ -133,7 +137,8 @@ class RollCall:
         is_known = await self._is_known()
         if self._is_replaced:
             return Found()
-        if not (is_known and is_listed):
+        # A service that another node has taken and given up was not forgotten.
+        if not (is_known and is_listed) and not taken.issuperset(absent):
             return Found(is_forgotten=self._absences.is_news(None, now))
         return Found(missing=[entry for entry in absent if self._absences.is_news(entry, now)])
 

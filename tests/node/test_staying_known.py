@@ -347,3 +347,27 @@ async def test_no_descriptors_for_a_moment(make_node, caplog):
     await until(lambda: _is(observer, ALL))
     await purge(observer, node, params=True)
     await until(lambda: _is(observer, ALL))
+
+
+async def test_a_service_that_another_node_takes_and_gives_up(make_node, monkeypatch):
+    """It is left to the other node, and then provided again, by the same master."""
+    observer = await make_node("observer", heartbeat=None)
+    monkeypatch.setattr("aioros1.node.roll_call._SHARE", 1e6)
+    node = await make_node("node", heartbeat=0.02, **PLAIN)
+    other = await make_node("other", heartbeat=0.02, **PLAIN)
+    watched = [Watched(node), Watched(other)]
+    await node.advertise_service("/flip", "std_srvs/SetBool", lambda request: None)
+    beats = []
+    ask = aioros1.MasterProxy.get_pid
+
+    async def counted(master):
+        beats.append(master.caller_id)
+        return await ask(master)
+
+    monkeypatch.setattr(aioros1.MasterProxy, "get_pid", counted)
+    taken = await other.advertise_service("/flip", "std_srvs/SetBool", lambda request: None)
+    await until(lambda: _true(beats.count("/node") > 20))
+    assert (await observer.master.get_system_state()).services["/flip"] == ["/other"]
+    await taken.close()
+    await until(lambda: _is(observer, [set(), set(), {"/flip"}]))
+    assert [each.seen for each in watched] == [[], []]
