@@ -16,11 +16,17 @@ from threading import get_ident
 from aioros1.net.coalescing import Coalescer
 from aioros1.net.lookups import Lookups
 from aioros1.net.turns import Turns
+from aioros1.wire.allocation import keep_memory
 from aioros1.wire.frames import READ
 
 __all__ = ["LoopState", "loop_state"]
 
 _KEY = "aioros1.net.loop_state"
+
+_SMALL = 32 << 10
+"""Bytes to keep memory for from the start. asyncio reads each piece of a connection that has no
+buffer of its own into a new block of 256 KiB, which the system would otherwise map and unmap
+every time: two thirds of what a call takes."""
 
 
 class LoopState:
@@ -39,6 +45,7 @@ class LoopState:
     )
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        keep_memory(_SMALL)
         self.loop = loop
         self.thread_id = get_ident()
         """The thread that ran the loop when somebody looked last. A program may stop a loop
