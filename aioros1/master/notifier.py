@@ -145,7 +145,7 @@ class Notifier:
                 except (TimeoutError, ConnectionError, HttpStatusError) as error:
                     if complaint != str(error):
                         complaint = str(error)
-                        self._log.log(_level(error), "%s", error)
+                        self._complain(error)
                     if failing_since is None:
                         failing_since = loop.time()
                     if isinstance(error, HttpStatusError) and error.status not in _TRY_AGAIN:
@@ -214,6 +214,16 @@ class Notifier:
             answer = await call(message.api, "shutdown", _CALLER_ID, message.reason)
         self._log.debug("%s answered %s", message.api, answer)
 
+    def _complain(self, error: Exception) -> None:
+        """A node that hangs is worth a warning; one that is gone may just have been killed.
+
+        Anybody can register thousands of either.
+        """
+        if isinstance(error, TimeoutError):
+            self._log.complain("%s", error)
+        else:
+            self._log.info("%s", error)
+
     async def _encode(self, message: ParamUpdate) -> bytes:
         """The request that tells of ``message``; the same bytes for all nodes that it is for.
 
@@ -233,11 +243,6 @@ def _is_large(value: Any) -> bool:
     if isinstance(value, dict | list):
         return bool(value)  # it would take long to find out
     return isinstance(value, str | bytes) and len(value) > _LARGE
-
-
-def _level(error: Exception) -> int:
-    """A node that hangs is worth a warning; one that is gone may just have been killed."""
-    return logging.WARNING if isinstance(error, TimeoutError) else logging.INFO
 
 
 def _slot(message: Notification) -> _Slot:

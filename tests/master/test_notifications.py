@@ -16,6 +16,7 @@ import pytest
 from aioros1.master import Master
 from aioros1.master.notifier import Notifier
 from aioros1.master.registry import PublisherUpdate, Shutdown
+from aioros1.options import Timeouts
 from aioros1.wire.xmlrpc import decode_call, encode_response
 from aioros1.xmlrpc.client import XmlRpcClient
 from aioros1.xmlrpc.server import XmlRpcServer
@@ -473,3 +474,23 @@ async def test_a_node_that_has_left_is_not_tried_any_more(ask: Any) -> None:
     async with asyncio.timeout(30):
         while any("notify http" in task.get_name() for task in asyncio.all_tasks()):
             await asyncio.sleep(0.01)
+
+
+async def test_many_nodes_that_hang_do_not_fill_the_log(caplog: pytest.LogCaptureFixture) -> None:
+    timeouts = Timeouts(xmlrpc=0.3)
+    client = XmlRpcClient()
+    with socket.socket() as silent:
+        silent.bind(("0.0.0.0", 0))
+        silent.listen(100)
+        port = silent.getsockname()[1]
+        async with Master("127.0.0.1", port=0, rosout=False, timeouts=timeouts) as master:
+            for number in range(60):
+                uri = f"http://127.0.1.{number + 1}:{port}/"
+                await client.call(master.uri, "registerSubscriber", f"/n{number}", "/t", "a/T", uri)
+            await client.call(master.uri, "registerPublisher", "/p", "/t", "a/T", "http://p:1/")
+            async with asyncio.timeout(10):
+                while not any("no answer" in record.message for record in caplog.records):
+                    await asyncio.sleep(0.01)
+            await asyncio.sleep(0.5)  # the others have not answered either
+    await client.close()
+    assert sum("no answer" in record.message for record in caplog.records) <= 32
