@@ -52,6 +52,9 @@ _PER_TURN = 2
 # Characters of a text that is encoded once for all nodes.
 _LARGE = 4096
 
+# Publishers in a list that is encoded once for all subscribers.
+_MANY = 50
+
 _Slot = tuple[type, str, str]
 """The subject of a message: its kind, the topic or key, and the node for parameters."""
 
@@ -82,7 +85,7 @@ class Notifier:
         self._starter: asyncio.Task[None] | None = None
         self._closed = False
         self._encoding = Mutex()
-        self._last: tuple[ParamUpdate, bytes] | None = None
+        self._last: tuple[str, str, Any, bytes] | None = None
 
     def send(self, notifications: Iterable[Notification]) -> None:
         """Queue messages; never waits."""
@@ -197,15 +200,19 @@ class Notifier:
         answer: Any
         call = self._client.call
         if isinstance(message, PublisherUpdate):
-            answer = await call(
-                message.api, "publisherUpdate", _CALLER_ID, message.topic, message.publishers
-            )
-        elif isinstance(message, ParamUpdate):
-            params = _CALLER_ID, message.key, message.value
-            if _is_large(message.value):
-                answer = await call(message.api, "paramUpdate", body=await self._encode(message))
+            method, topic, publishers = "publisherUpdate", message.topic, message.publishers
+            if len(publishers) > _MANY:
+                body = await self._encode(method, topic, publishers)
+                answer = await call(message.api, method, body=body)
             else:
-                answer = await call(message.api, "paramUpdate", *params)
+                answer = await call(message.api, method, _CALLER_ID, topic, publishers)
+        elif isinstance(message, ParamUpdate):
+            method, key, value = "paramUpdate", message.key, message.value
+            if _is_large(value):
+                body = await self._encode(method, key, value)
+                answer = await call(message.api, method, body=body)
+            else:
+                answer = await call(message.api, method, _CALLER_ID, key, value)
             if isinstance(answer, list) and answer[:1] == [-1]:
                 self._on_unwanted(message)
         elif not self._is_wanted(message):
@@ -224,18 +231,19 @@ class Notifier:
         else:
             self._log.info("%s", error)
 
-    async def _encode(self, message: ParamUpdate) -> bytes:
-        """The request that tells of ``message``; the same bytes for all nodes that it is for.
+    async def _encode(self, method: str, name: str, value: Any) -> bytes:
+        """The request that tells of ``value``; the same bytes for all nodes that it is for.
 
-        A large parameter may have hundreds of followers that take their time.
+        A large parameter may have hundreds of followers that take their time, and a topic with
+        many publishers as many subscribers.
         """
         async with self._encoding:
             if self._last is not None:
-                last, body = self._last
-                if last.value is message.value and last.key == message.key:
+                *last, last_value, body = self._last
+                if last_value is value and last == [method, name]:
                     return body
-            body = await self._client.encode("paramUpdate", _CALLER_ID, message.key, message.value)
-            self._last = message, body
+            body = await self._client.encode(method, _CALLER_ID, name, value)
+            self._last = method, name, value, body
             return body
 
 

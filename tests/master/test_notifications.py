@@ -494,3 +494,31 @@ async def test_many_nodes_that_hang_do_not_fill_the_log(caplog: pytest.LogCaptur
             await asyncio.sleep(0.5)  # the others have not answered either
     await client.close()
     assert sum("no answer" in record.message for record in caplog.records) <= 32
+
+
+async def test_a_long_list_of_publishers_is_encoded_once_for_all_who_hang() -> None:
+    """Each node that takes its time would have megabytes of its own otherwise."""
+    bodies: list[bytes | None] = []
+    encoder = XmlRpcClient()
+
+    class Client:
+        async def encode(self, method: str, *params: Any) -> bytes:
+            return await encoder.encode(method, *params)
+
+        async def call(self, uri: str, method: str, *params: Any, body: bytes | None = None) -> Any:
+            bodies.append(body)
+            await asyncio.sleep(3600)
+
+    client: Any = Client()
+    notifier = Notifier(client, is_wanted=lambda message: True, on_unwanted=lambda update: None)
+    publishers = [f"http://p{number}:1/" for number in range(100)]
+    notifier.send(PublisherUpdate(f"http://n{number}:1/", "/t", publishers) for number in range(20))
+    async with asyncio.timeout(10):
+        while len(bodies) < 20:
+            await asyncio.sleep(0)
+    await notifier.close()
+    await encoder.close()
+    first = bodies[0]
+    assert first is not None
+    assert all(each is first for each in bodies)
+    assert decode_call(first) == ("publisherUpdate", ("/master", "/t", publishers))
