@@ -7,7 +7,7 @@ import logging
 from typing import Any
 
 from aioros1.core.context import Context
-from aioros1.errors import MasterError, RosError
+from aioros1.errors import MasterError, ServiceError
 from aioros1.log.levels import LEVELS, LevelChanges, level_name
 from aioros1.services.provider import ServiceProviderOptions
 from aioros1.services.services import Services
@@ -66,17 +66,19 @@ class LoggerServices:
     def _set_logger_level(self, request: Any) -> None:
         level = request.level.lower()
         if level not in LEVELS:
-            raise RosError(f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}")
+            raise ServiceError(
+                f"unknown level {request.level!r}, expected one of {', '.join(LEVELS)}"
+            )
         # Create a logger that does not exist yet, as rospy and roscpp do: it may be used later.
         if not self._is_ours(request.logger):
             names = ", ".join(self._context.loggers)
-            raise RosError(
+            raise ServiceError(
                 f"unknown logger {request.logger!r}, expected one of {names}, or one below"
             )
         if request.logger not in logging.Logger.manager.loggerDict:
             # Loggers stay until the process ends, with one for each dot in the name.
             if len(request.logger) > _LONGEST_NAME or self._created >= _MOST_CREATED:
-                raise RosError(
+                raise ServiceError(
                     f"logger {request.logger[:60]!r} does not exist, and is not created: at most "
                     f"{_MOST_CREATED} are, with names of at most {_LONGEST_NAME} characters"
                 )

@@ -12,7 +12,7 @@ from aioros1.node import logger_services
 from aioros1.srv.roscpp import SetLoggerLevel
 
 
-async def test_others_can_create_few_loggers_with_short_names(make_node, monkeypatch):
+async def test_others_can_create_few_loggers_with_short_names(make_node, monkeypatch, caplog):
     monkeypatch.setattr(logger_services, "_MOST_CREATED", 3)
     node, other = await make_node("node", logger_services=True), await make_node("other")
     await other.wait_for_service("/node/set_logger_level", timeout=30)
@@ -34,3 +34,5 @@ async def test_others_can_create_few_loggers_with_short_names(make_node, monkeyp
     await set_level(f"{top}.{tag}0")
     await set_level(top)
     assert len(logging.Logger.manager.loggerDict) <= before + 3
+    # What a caller does wrong is told to the caller, and is no failure of this node.
+    assert not [record for record in caplog.records if record.levelname == "ERROR"]
