@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import gzip
 import struct
+import tracemalloc
 from urllib.parse import urlsplit
 
 import pytest
@@ -173,3 +174,32 @@ async def test_answers_that_nobody_reads_take_no_memory(make_node):
             assert unsent < 5 * MB
             assert await node.get_param("p") == "x" * 8 * MB
         await until(lambda: master.stats.bytes_in_flight == 0)
+
+
+async def test_a_large_message_is_kept_once_for_all_who_do_not_read_it(make_node):
+    node = await make_node("talker")
+    body = bytes(range(256)) * (256 << 10)  # 64 MB
+    publisher = await node.advertise("large", "std_msgs/UInt8MultiArray", latch=True)
+    publisher.publish(data=body)
+    tracemalloc.start()
+    try:
+        async with contextlib.AsyncExitStack() as stack:
+            before, _ = tracemalloc.get_traced_memory()
+            wires = []
+            for _ in range(8):
+                wire = await stack.enter_async_context(dialled(node))
+                wire.pause()
+                await wire.send(subscriber_header("/large", type="*", md5sum="*"))
+                wires.append(wire)
+            await publisher.wait_for_subscribers(8, timeout=10)
+            now, _ = tracemalloc.get_traced_memory()
+            assert now - before < 64 * MB  # a few of its own for each
+            # Whoever reads gets all of it, and what comes behind it.
+            publisher.publish(data=b"end")
+            wires[3].resume()
+            await wires[3].read_header()
+            is_whole = (await wires[3].frame())[12:] == body
+            assert is_whole
+            assert (await wires[3].frame()).endswith(b"end")
+    finally:
+        tracemalloc.stop()
