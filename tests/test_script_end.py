@@ -348,9 +348,13 @@ async def test_a_thread_that_does_not_end_is_named_after_the_reason(programs):
 
 async def test_a_forked_process_can_be_terminated(programs):
     program = await programs.start(
+        # Python forgets a signal that comes while it forks, so the child says that it is there.
         "import multiprocessing, time\n"
-        "process = multiprocessing.get_context('fork').Process(target=time.sleep, args=(3600,))\n"
-        "process.start()\nprocess.terminate()\n"
+        "context = multiprocessing.get_context('fork')\n"
+        "ours, theirs = context.Pipe()\n"
+        "def work():\n    theirs.send('ready')\n    time.sleep(3600)\n"
+        "process = context.Process(target=work)\n"
+        "process.start()\nours.recv()\nprocess.terminate()\n"
         "await asyncio.to_thread(process.join)\n"
         "pub.publish(data='stop')\nreturn process.exitcode"
     )
