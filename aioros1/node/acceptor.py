@@ -11,6 +11,7 @@ from aioros1.net.admission import Admission
 from aioros1.net.allow import AllowList
 from aioros1.net.local_transports import LocalTransports
 from aioros1.net.tcpros import Listener, Stream
+from aioros1.topics.topics import NotPublishedError
 from aioros1.wire.handshake import Server
 
 __all__ = ["Acceptor"]
@@ -79,8 +80,9 @@ class Acceptor:
             assert serve is not None
             await serve(stream, server)
         except HandshakeError as error:
-            # A peer that comes while the node closes does not know that yet.
-            if context.is_open and server.header.get("topic") != ROSOUT:
+            # A peer that comes while the topic, or the node, closes does not know that yet.
+            is_news = not isinstance(error, NotPublishedError)
+            if context.is_open and is_news and server.header.get("topic") != ROSOUT:
                 host = stream.peer.rpartition(":")[0]
                 about = (server.caller_id, host, error.text)
                 log.complain("refused a connection of %s: %s", server.peer, error.text, about=about)

@@ -19,7 +19,12 @@ from aioros1.topics.subscription import OnReceived, Subscription
 from aioros1.waiting import deadline
 from aioros1.wire.handshake import Server
 
-__all__ = ["Topics"]
+__all__ = ["NotPublishedError", "Topics"]
+
+
+class NotPublishedError(HandshakeError):
+    """A subscriber came for a topic that is not published, perhaps not any more. It learns of
+    that from the master a moment later, so this is no news to anybody but itself."""
 
 
 class Topics:
@@ -116,7 +121,7 @@ class Topics:
         if publication is None:
             name = self._context.name
             topic = printable(server.topic)
-            raise HandshakeError(server.peer, f"{name} does not publish {topic}")
+            raise NotPublishedError(server.peer, f"{name} does not publish {topic}")
         await publication.serve(stream, server)
 
     def watch(self, on_received: OnReceived) -> None:

@@ -19,8 +19,8 @@ from soak.scenarios import (
 __all__ = ["SCENARIOS"]
 
 MODULES = (
-    chaos,
     master_restarts,
+    chaos,
     registrations,
     cut_connections,
     lossless,
