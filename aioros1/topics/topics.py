@@ -22,9 +22,13 @@ from aioros1.wire.handshake import Server
 __all__ = ["NotPublishedError", "Topics"]
 
 
+_REMEMBERED = 1_000
+"""Topics of a node that are known to be closed when somebody comes for them."""
+
+
 class NotPublishedError(HandshakeError):
-    """A subscriber came for a topic that is not published, perhaps not any more. It learns of
-    that from the master a moment later, so this is no news to anybody but itself."""
+    """A subscriber came for a topic that is not published any more. The master is about to tell
+    it so, and this is no news to anybody else."""
 
 
 class Topics:
@@ -35,6 +39,7 @@ class Topics:
 
     def __init__(self, context: Context, local: LocalTransports) -> None:
         self.publications: dict[str, Publication] = {}
+        self._were_published: set[str] = set()  # some names that were published at any time
         """By topic, for as long as a publisher uses them."""
         self.subscriptions: dict[str, Subscription] = {}
         """By topic, for as long as a subscriber uses them."""
@@ -65,6 +70,8 @@ class Topics:
         publisher: Publisher[Any] = Publisher(
             context, publication, message_class, options, warns=warns
         )
+        if len(self._were_published) < _REMEMBERED:
+            self._were_published.add(topic)
         await publication.acquire(publisher, without_master)
         return await context.admit(publisher, publisher._abort)
 
@@ -121,7 +128,9 @@ class Topics:
         if publication is None:
             name = self._context.name
             topic = printable(server.topic)
-            raise NotPublishedError(server.peer, f"{name} does not publish {topic}")
+            was_published = server.topic in self._were_published
+            refusal = NotPublishedError if was_published else HandshakeError
+            raise refusal(server.peer, f"{name} does not publish {topic}")
         await publication.serve(stream, server)
 
     def watch(self, on_received: OnReceived) -> None:
