@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["bytes_of", "check_message", "describe_array", "octets"]
+__all__ = ["as_uint8", "bytes_of", "check_message", "describe_array"]
 
 
 def check_message(message: object, *types: str) -> object:
@@ -21,7 +21,7 @@ def check_message(message: object, *types: str) -> object:
     return message
 
 
-def octets(data: Any, place: str) -> NDArray[np.uint8]:
+def as_uint8(data: Any, place: str) -> NDArray[np.uint8]:
     """The bytes of a ``uint8[]`` field as an array, without a copy if it is a buffer."""
     try:
         if isinstance(data, (list, tuple)):

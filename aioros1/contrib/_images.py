@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from aioros1 import AnyMessage, GenpyMessage
 from aioros1._public import public
-from aioros1.contrib._buffers import bytes_of, check_message, describe_array, octets
+from aioros1.contrib._buffers import as_uint8, bytes_of, check_message, describe_array
 from aioros1.msg.sensor_msgs import Image
 from aioros1.msg.std_msgs import Header
 
@@ -101,7 +101,7 @@ def image_to_array(image: Image | AnyMessage | GenpyMessage) -> NDArray[Any]:
             f"{row_bytes} bytes for {width} pixels of "
             f"{message.encoding}, got {step}"
         )
-    data = octets(message.data, "data")
+    data = as_uint8(message.data, "data")
     needed = step * (rows - 1) + row_bytes
     if data.size < needed:
         raise ValueError(

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from aioros1 import AnyMessage, GenpyMessage
 from aioros1._public import public
-from aioros1.contrib._buffers import bytes_of, check_message, describe_array, octets
+from aioros1.contrib._buffers import as_uint8, bytes_of, check_message, describe_array
 from aioros1.msg.sensor_msgs import LaserScan, PointCloud2, PointField
 from aioros1.msg.std_msgs import Header
 
@@ -52,7 +52,7 @@ def pointcloud2_to_array(
             f"row_step: expected at least {width * point_step} bytes for {width} points of "
             f"{point_step}, got {row_step}"
         )
-    data = octets(message.data, "data")
+    data = as_uint8(message.data, "data")
     needed = (row_step * (height - 1) if height > 1 else 0) + width * point_step
     if data.size < needed:
         raise ValueError(
